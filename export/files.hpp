@@ -1,0 +1,36 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "geo/result.hpp"
+
+namespace aerogram::exporter {
+
+/// A whole file as bytes. Errors: io, naming the file. @param limit  bytes; larger files are refused (invalid_input).
+Result<std::string> read_file(const std::filesystem::path& file, std::uintmax_t limit = std::uintmax_t{8} << 30);
+/// Creates or replaces a file, folders included. Errors: io.
+Status write_file(const std::filesystem::path& file, std::string_view bytes);
+
+/// A folder being written beside its destination; `commit` swaps it in with renameat2(RENAME_EXCHANGE), so that a reader, or
+/// whoever comes after a kill -9, finds the old folder or the new one, complete. Uncommitted folders are removed; leftovers
+/// of killed runs are removed by the next one.
+class StagedFolder {
+  public:
+    /// Errors: io when the parent cannot be written, invalid_input when the destination exists and is no folder of ours
+    /// (it has no manifest.json and is not empty).
+    static Result<StagedFolder> beside(const std::filesystem::path& destination);
+    StagedFolder(StagedFolder&&) noexcept;
+    StagedFolder& operator=(StagedFolder&&) noexcept;
+    ~StagedFolder();
+
+    [[nodiscard]] const std::filesystem::path& path() const { return staging_; }
+    /// Flushes to disk and swaps. Errors: io.
+    Status commit();
+
+  private:
+    StagedFolder() = default;
+    std::filesystem::path staging_, destination_;
+};
+
+}  // namespace aerogram::exporter

@@ -1,0 +1,72 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geo/airspace.hpp"
+#include "geo/limits.hpp"
+#include "geo/show_frame.hpp"
+#include "geo/tracks.hpp"
+#include "geo/vec3.hpp"
+
+/// What every reader returns: a show as a file tells it, with that file's rounding and interpolation rule and nothing of the
+/// planner's. `verify`, `inspect`, `convert`, the viewer and the simulator consume it.
+namespace aerogram::exporter {
+
+/// One Bézier polynomial in time. Its control points are controls_m[first_control .. first_control + degree].
+struct Piece {
+    double start_s = 0.0, duration_s = 0.0;
+    std::uint32_t first_control = 0;
+    std::uint8_t degree = 1;  ///< 0 (stands) .. 7
+};
+
+/// A place to fly to, without a time.
+struct Waypoint {
+    geo::Geodetic place;                  ///< height_m holds the ellipsoidal height only where the format knows it
+    double altitude_above_home_m = 0.0;
+    double hold_s = 0.0;
+    enum class Kind { takeoff, fly_to, land } kind = Kind::fly_to;
+};
+
+struct RecordedDrone {
+    std::string name;                     ///< the stable identifier, "drone-001"
+    std::optional<Vec3> home_m, land_m;   ///< show frame
+    std::vector<Piece> pieces;            ///< in time order, without gaps; first and last positions hold outside
+    std::vector<Vec3> controls_m;         ///< show frame
+    std::optional<geo::Geodetic> home;    ///< untimed formats: where the drone's altitudes count from
+    std::vector<Waypoint> waypoints;      ///< untimed formats; else empty
+    Tracks tracks;
+};
+
+/// A format's stated rounding, against which verify judges (FORMATS pages).
+struct Rounding {
+    double position_m = 0.0;          ///< each stored coordinate is within this of the exact one (half the last digit)
+    double fit_m = 0.0;               ///< the curve is within this of the exact one, rounding not included
+    bool has_speed = true;            ///< the interpolation rule gives speeds that mean something
+    double speed_allowance_mps = 0.0;
+    bool has_acceleration = true;
+    double acceleration_allowance_mps2 = 0.0;
+    double time_s = 0.0;              ///< each stored time is within this of the exact one
+};
+
+struct RecordedShow {
+    std::string format;                       ///< registry name, "skyc"
+    std::string title;
+    std::optional<std::string> show_hash;     ///< 64 lower-case hex digits, where the file holds one
+    std::optional<bool> certified;            ///< what the file claims
+    std::optional<geo::ShowOrigin> origin;
+    std::optional<Limits> limits;
+    std::optional<geo::Airspace> airspace;
+    std::optional<double> endurance_s;
+    bool timed = true;                        ///< false: waypoints only, no separation can be claimed
+    Rounding rounding;
+    std::vector<RecordedDrone> drones;
+    std::vector<Cue> cues;
+    double duration_s = 0.0;
+};
+
+/// Position at t_s, seconds (clamped to the drone's pieces). @param drone  at least one piece.
+[[nodiscard]] Vec3 position_at(const RecordedDrone& drone, double t_s);
+
+}  // namespace aerogram::exporter

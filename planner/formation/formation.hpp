@@ -1,0 +1,36 @@
+#pragma once
+#include <cstddef>
+#include <vector>
+
+#include "geo/color.hpp"
+#include "geo/result.hpp"
+#include "geo/run.hpp"
+#include "geo/vec3.hpp"
+#include "planner/mission/mission.hpp"
+
+namespace aerogram::planner {
+
+/// One keyframe's places ("slots"). points_m, colors and part have one entry a slot; slot i is SlotId(i).
+struct Formation {
+    Points points_m;                  ///< show frame
+    std::vector<Rgb> colors;          ///< linear
+    std::vector<std::uint32_t> part;  ///< index into Keyframe::parts
+    double smallest_spacing_m = 0.0;  ///< in the separation metric; 0 for a single slot
+};
+
+/// The formation of mission.keyframes[index]: exactly fleet.drones slots, in a stable order, placed in the show frame.
+/// Properties: (1) N exact (2) smallest spacing >= limits.formation_spacing_m (3) ends and corners of strokes are occupied
+/// whenever N allows (4) same mission, same bytes.
+/// Errors: invalid_input at the part's line when the source is unusable, when the spacing does not fit ("needs size_m >= ..."),
+/// or when a slot is below the minimum navigation altitude or above the ceiling.
+Result<Formation> build_formation(const Mission& mission, std::size_t index, const Run& run);
+
+/// Smallest distance between any two points in the separation metric, and between which; hash grid, O(n).
+struct ClosestPair {
+    std::size_t first = 0, second = 0;
+    double distance_m = 0.0;
+};
+/// @param points_m  n >= 2 finite points.
+[[nodiscard]] ClosestPair closest_pair(const Points& points_m, const SeparationMetric& metric);
+
+}  // namespace aerogram::planner

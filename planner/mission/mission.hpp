@@ -1,0 +1,144 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "geo/airspace.hpp"
+#include "geo/color.hpp"
+#include "geo/ids.hpp"
+#include "geo/limits.hpp"
+#include "geo/show_frame.hpp"
+#include "geo/tracks.hpp"
+
+/// A mission as its designer wrote it: checked, defaults filled in, names resolved; nothing planned yet.
+/// Everything here mirrors MISSION.md; `line` members point back into the file for error messages.
+namespace aerogram::planner {
+
+enum class TextStyle { stroke, outline, fill, solid };
+struct TextSource {
+    std::string text;              ///< UTF-8, may hold '\n'
+    std::string font = "stroke";
+    TextStyle style = TextStyle::stroke;
+};
+struct CsvSource {
+    std::filesystem::path file;    ///< resolved against the mission's folder
+};
+enum class ShapeKind { line, grid, circle, sphere, helix };
+struct ShapeSource {
+    ShapeKind kind = ShapeKind::line;
+    std::optional<std::uint32_t> rows, columns;  ///< grid
+    double turns = 3.0;                          ///< helix
+};
+using Source = std::variant<TextSource, CsvSource, ShapeSource>;
+
+/// Size along the formation's own axes before rotation; absent components follow the aspect, all absent: the smallest size
+/// that holds the formation spacing. Flat sources use width (x) and height (z).
+struct Size {
+    std::optional<double> width_m, depth_m, height_m;  ///< x, y, z
+};
+
+/// One source with its place, colour and share of the fleet. A keyframe without [[keyframe.part]] has exactly one.
+struct Part {
+    Source source;
+    Size size;
+    Vec3 center_m{};
+    Vec3 rotate_rad{};                  ///< about x, y, z in that order, counter-clockwise seen from the axis' tip
+    std::optional<Rgb> color;           ///< absent: the source's own, else white
+    std::size_t drones = 0;             ///< resolved: all parts of a keyframe sum to the fleet
+    std::string group;                  ///< the group whose drones fly here; empty: anyone
+    int line = 0;
+};
+
+enum class Method { straight, spectral, flow };
+enum class Assign { shortest, keep, groups };
+enum class ProfileKind { minimum_jerk, trapezoid, s_curve };
+enum class SeparationMethod { projection, none };
+enum class Align { pca, kabsch, none };
+enum class Reorder { greedy, optimal, none };
+struct SpectralOptions {
+    Align align = Align::kabsch;
+    Reorder reorder = Reorder::optimal;
+    bool inflate = false;
+};
+enum class FlowOf { positions, spectral };
+struct FlowOptions {
+    double tension = 0.5;              ///< Catmull-Rom's tau, [0, 1]; paper 000, equation 5
+    bool corner = false;               ///< the path is not smooth at the keyframe arrived at
+    FlowOf of = FlowOf::positions;     ///< what is interpolated: positions, or bases and coefficients (cumulative form)
+};
+
+/// How the fleet comes to a keyframe.
+struct Arrive {
+    Method method = Method::straight;
+    Assign assign = Assign::shortest;
+    std::map<DroneId, SlotId> pins;
+    std::optional<double> duration_s;
+    ProfileKind profile = ProfileKind::minimum_jerk;
+    SeparationMethod separation = SeparationMethod::projection;
+    SpectralOptions spectral;
+    FlowOptions flow;
+    int line = 0;
+};
+
+struct Keyframe {
+    std::string name;                  ///< unique
+    std::vector<Part> parts;           ///< >= 1
+    Vec3 center_m{};                   ///< with parts: applied on top of each part's own place; else (0,0,0) and in the part
+    Vec3 rotate_rad{};
+    std::optional<double> at_s;        ///< the formation stands at this show time
+    double hold_s = 3.0;               ///< 0 only where the next arrival is a flow
+    Arrive arrive;
+    int line = 0;
+};
+
+struct Group {
+    std::string name;
+    std::vector<DroneId> drones;       ///< ascending, disjoint from other groups of the same level
+    double weight = 10.0;              ///< multiplies adjacency weights inside the group
+    int line = 0;
+};
+
+/// One end of an adjacency edit: a drone or a whole group (index into Mission::groups).
+struct AdjacencyEnd {
+    std::variant<DroneId, std::size_t> who;
+};
+struct AdjacencyEdit {
+    AdjacencyEnd first, second;
+    double weight = 1.0;               ///< multiplies; 0 cuts; connects with 1/d times this where no edge was
+    int line = 0;
+};
+
+struct Fleet {
+    std::size_t drones = 0;
+    Points pads_m;                     ///< >= drones places on the ground, show frame; drone i stands on pad i
+    double endurance_s = 900.0;
+    int line = 0;
+};
+
+struct Mission {
+    std::filesystem::path file;
+    std::string name;
+    std::uint64_t seed = 1;
+    geo::ShowOrigin origin;
+    std::optional<std::filesystem::path> audio;
+    Fleet fleet;
+    Limits limits;
+    geo::Airspace airspace;            ///< already in the show frame
+    std::vector<Keyframe> keyframes;   ///< >= 1
+    std::vector<Group> groups;
+    std::vector<Cue> cues;
+    std::vector<AdjacencyEdit> adjacency;
+
+    /// "file:line: what" for messages of later stages, e.g. at(k.line, "keyframe[2].size_m = 3: needs >= 7.5").
+    [[nodiscard]] std::string at(int line, const std::string& what) const;
+};
+
+/// "keyframe[3]" as messages and people count: from 1.
+[[nodiscard]] std::string keyframe_key(std::size_t index);
+
+}  // namespace aerogram::planner

@@ -1,0 +1,84 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geo/airspace.hpp"
+#include "geo/ids.hpp"
+#include "geo/limits.hpp"
+#include "geo/run.hpp"
+#include "geo/show_frame.hpp"
+#include "planner/motion/act.hpp"
+#include "planner/motion/timing.hpp"
+
+namespace aerogram::planner {
+
+/// Where and when two drones are closest.
+struct Encounter {
+    DroneId first, second;
+    double time_s = 0.0;        ///< act-local
+    double distance_m = 0.0;    ///< attained there, in the separation metric: the true minimum is not above this
+};
+
+/// Continuous-time separation of an act: lower_bound_m <= true minimum <= closest.distance_m.
+/// Pairs are excused only while both stand on their pads.
+struct SeparationBound {
+    double lower_bound_m = 0.0;
+    std::optional<Encounter> closest;  ///< absent with fewer than two drones
+};
+
+/// Bounds the smallest distance of any pair at any instant of the act.
+/// Straight acts: closed form for all pairs. Others: convex hull of the difference's four Bézier control points (z divided
+/// by the downwash), one separating direction, bisection while inconclusive; uniform hash grid per knot interval.
+/// @param beyond_m  distances above this need not be resolved: the answer may be this value, with no pair named, when every
+///                  pair is farther. Pass about twice the required separation.
+/// Properties: (1) lower bound never above a dense sampling's minimum (2) within 2 % of it below beyond_m
+/// (3) permuting drones changes only names (4) scaling time changes nothing.
+/// Errors: stopped.
+Result<SeparationBound> bound_separation(const Motion& motion, double duration_s, const SeparationMetric& metric,
+                                         double beyond_m, const Run& run);
+
+/// What one act was found to do, worst over all drones and instants, and whether that is within the limits.
+struct ActCertificate {
+    std::string name;
+    ActRole role = ActRole::hold;
+    Millis start_ms = 0, duration_ms = 0;
+    double required_separation_m = 0.0;  ///< planned_separation_m(limits)
+    SeparationBound separation;
+    Extremes extremes;
+    double altitude_min_m = 0.0, altitude_max_m = 0.0;  ///< above own pads
+    std::optional<double> geofence_margin_m;            ///< smallest distance to the fence from inside
+    std::optional<double> audience_margin_m;            ///< smallest distance to an audience polygon from outside
+    std::optional<double> obstacle_margin_m;            ///< smallest clearance
+    std::vector<std::string> violations;                ///< each names limit, value, drones, time; empty: certified
+    // How the act came about; filled by the planner, shown in reports.
+    std::string method;               ///< "straight", "spectral", "flow", "hold"
+    std::string separation_by;        ///< "" (none needed), "projection", and the rungs taken
+    int separation_rounds = 0;        ///< projection iterations
+    std::string assignment;           ///< "shortest, gap 0, pairwise", ...
+    double path_ratio = 1.0;          ///< flown length over straight-line length
+
+    [[nodiscard]] bool certified() const { return violations.empty(); }
+};
+
+struct Certificate {
+    std::vector<ActCertificate> acts;
+    std::vector<std::string> violations;  ///< of the whole show (endurance)
+    [[nodiscard]] bool certified() const;
+    [[nodiscard]] double min_separation_m() const;  ///< smallest lower bound over the acts
+};
+
+/// What an act is judged against beside its limits.
+struct Surroundings {
+    geo::ShowFrame frame;
+    geo::Airspace airspace;
+    Points pads_m;  ///< one a drone: altitudes are above own pad
+    Limits limits;
+};
+
+/// Judges one act against limits and airspace in continuous time. A horizontal motion below the minimum navigation
+/// altitude is a violation whatever the act's role.
+/// Errors: stopped.
+Result<ActCertificate> certify(const Act& act, const Surroundings& surroundings, const Run& run);
+
+}  // namespace aerogram::planner
