@@ -41,7 +41,7 @@ enum class ActRole { takeoff, transit, hold, landing };
 enum class Timing { free, fixed };
 
 struct Act {
-    std::string name;        ///< "take-off", "to T", "T", "return", "landing"
+    std::string name;  ///< "take-off", "to T", "T", "return", "landing"
     ActRole role = ActRole::hold;
     Timing timing = Timing::free;
     Millis start_ms = 0;
@@ -79,8 +79,8 @@ void positions(const Act& act, double local_t_s, std::span<Vec3> out);
 
 /// The lattice at rest at both ends that passes through the samples at its knots. Knot 1 and the last but one are free
 /// (rest at the ends takes their two conditions); all others are met to rounding error.
-/// @param samples_m  (K-2) rows of `drones` positions, row m = position at knot m; first and last rows are the ends. K >= 9.
-/// Accuracy: 1e-12 of the coordinates; O(K n). One tridiagonal factorisation for all drones.
+/// @param samples_m  (K-2) rows of `drones` positions, row m = position at knot m; first and last rows are the ends. K
+/// >= 9. Accuracy: 1e-12 of the coordinates; O(K n). One tridiagonal factorisation for all drones.
 [[nodiscard]] Lattice lattice_through(std::span<const Vec3> samples_m, std::size_t drones);
 
 }  // namespace aerogram::planner

@@ -16,8 +16,8 @@ namespace aerogram::planner {
 /// Where and when two drones are closest.
 struct Encounter {
     DroneId first, second;
-    double time_s = 0.0;        ///< act-local
-    double distance_m = 0.0;    ///< attained there, in the separation metric: the true minimum is not above this
+    double time_s = 0.0;      ///< act-local
+    double distance_m = 0.0;  ///< attained there, in the separation metric: the true minimum is not above this
 };
 
 /// Continuous-time separation of an act: lower_bound_m <= true minimum <= closest.distance_m.
@@ -28,9 +28,11 @@ struct SeparationBound {
 };
 
 /// Bounds the smallest distance of any pair at any instant of the act.
-/// Straight acts: closed form for all pairs. Others: convex hull of the difference's four Bézier control points (z divided
-/// by the downwash), one separating direction, bisection while inconclusive; uniform hash grid per knot interval.
-/// @param beyond_m  distances above this need not be resolved: the answer may be this value, with no pair named, when every
+/// Straight acts: closed form for all pairs. Others: convex hull of the difference's four Bézier control points (z
+/// divided by the downwash), one separating direction, bisection while inconclusive; uniform hash grid per knot
+/// interval.
+/// @param beyond_m  distances above this need not be resolved: the answer may be this value, with no pair named, when
+/// every
 ///                  pair is farther. Pass about twice the required separation.
 /// Properties: (1) lower bound never above a dense sampling's minimum (2) within 2 % of it below beyond_m
 /// (3) permuting drones changes only names (4) scaling time changes nothing.
@@ -52,11 +54,11 @@ struct ActCertificate {
     std::optional<double> obstacle_margin_m;            ///< smallest clearance
     std::vector<std::string> violations;                ///< each names limit, value, drones, time; empty: certified
     // How the act came about; filled by the planner, shown in reports.
-    std::string method;               ///< "straight", "spectral", "flow", "hold"
-    std::string separation_by;        ///< "" (none needed), "projection", and the rungs taken
-    int separation_rounds = 0;        ///< projection iterations
-    std::string assignment;           ///< "shortest, gap 0, pairwise", ...
-    double path_ratio = 1.0;          ///< flown length over straight-line length
+    std::string method;         ///< "straight", "spectral", "flow", "hold"
+    std::string separation_by;  ///< "" (none needed), "projection", and the rungs taken
+    int separation_rounds = 0;  ///< projection iterations
+    std::string assignment;     ///< "shortest, gap 0, pairwise", ...
+    double path_ratio = 1.0;    ///< flown length over straight-line length
 
     [[nodiscard]] bool certified() const { return violations.empty(); }
 };

@@ -31,9 +31,9 @@ struct FlightPlan {
     Limits limits;
     geo::Airspace airspace;
     double endurance_s = 900.0;
-    Points pads_m;                      ///< one a drone: home and landing place
-    std::vector<Act> acts;              ///< in order, without gaps; acts[0].start_ms = 0
-    std::vector<Tracks> tracks;         ///< one a drone
+    Points pads_m;               ///< one a drone: home and landing place
+    std::vector<Act> acts;       ///< in order, without gaps; acts[0].start_ms = 0
+    std::vector<Tracks> tracks;  ///< one a drone
     std::vector<PlannedKeyframe> keyframes;
     std::vector<Cue> cues;
     std::optional<std::filesystem::path> audio;
