@@ -13,7 +13,8 @@ Error stopped_error() {
     return {ErrorCode::stopped, "stopped on request"};
 }
 
-void parallel_for(std::size_t count, const Run& run, std::string_view stage, const std::function<void(std::size_t)>& task) {
+void parallel_for(std::size_t count, const Run& run, std::string_view stage,
+                  const std::function<void(std::size_t)>& task) {
     std::atomic<std::size_t> next{0};
     std::size_t finished = 0;
     std::mutex mutex;
