@@ -50,7 +50,7 @@ void search_margin(const Curve& d, double begin_s, double end_s, std::size_t dro
     for (const Vec3& p : d) radius = std::max(radius, glm::length(p - middle));
     const double at_middle = margin(middle);
     if (at_middle - radius >= worst.margin_m - kMarginResolution_m) {
-        lower_m = std::min(lower_m, std::max(at_middle - radius, worst.margin_m - kMarginResolution_m));
+        lower_m = std::min(lower_m, at_middle - radius);
         return;
     }
     const double at_start = margin(d[0]);
