@@ -1,17 +1,23 @@
 # aerogram_module(FOLDER [USES folder...] [PUBLIC lib...] [PRIVATE lib...])
-# One static library from all sources directly in FOLDER, named after it: planner/motion -> aerogram_planner_motion.
-# USES are other modules it may include from; PRIVATE are the third-party libraries behind its seams.
+# One static library from all sources directly in FOLDER (main.cpp excepted), named after it: planner/motion ->
+# aerogram_planner_motion. USES are other modules it may include from (tests/arch reads them from CMakeLists.txt);
+# PRIVATE are the third-party libraries behind its seams.
 function(aerogram_module folder)
     cmake_parse_arguments(ARG "" "" "USES;PUBLIC;PRIVATE" ${ARGN})
-    string(REPLACE "/" "_" name "aerogram_${folder}")
+    string(REPLACE "/" "_" short_name "${folder}")
+    set(name "aerogram_${short_name}")
     file(GLOB sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/${folder}/*.cpp")
+    list(FILTER sources EXCLUDE REGEX "/main\\.cpp$")
     if(sources)
         add_library(${name} STATIC ${sources})
         set(reach PUBLIC)
-        target_link_libraries(${name} PRIVATE aerogram_warnings ${ARG_PRIVATE})
+        target_link_libraries(${name} PRIVATE $<BUILD_INTERFACE:aerogram_warnings> ${ARG_PRIVATE})
     else()
         add_library(${name} INTERFACE)
         set(reach INTERFACE)
+    endif()
+    if("aerogram_dep_cgal" IN_LIST ARG_PRIVATE)
+        set_target_properties(${name} PROPERTIES JOB_POOL_COMPILE heavy)
     endif()
     target_include_directories(${name} ${reach} "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>"
                                                 "$<INSTALL_INTERFACE:include/aerogram>")
@@ -21,7 +27,20 @@ function(aerogram_module folder)
         target_link_libraries(${name} ${reach} ${used_name})
     endforeach()
     target_link_libraries(${name} ${reach} ${ARG_PUBLIC})
-    set_property(GLOBAL APPEND PROPERTY AEROGRAM_MODULES ${name})
+    set_target_properties(${name} PROPERTIES EXPORT_NAME ${short_name})
+    set_property(GLOBAL APPEND PROPERTY AEROGRAM_MODULES ${folder})
+endfunction()
+
+# aerogram_program(NAME FOLDER)   FOLDER/main.cpp -> build/NAME
+function(aerogram_program name folder)
+    string(REPLACE "/" "_" module_name "aerogram_${folder}")
+    file(GLOB main CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/${folder}/main.cpp")
+    if(NOT main)
+        return()
+    endif()
+    add_executable(${name} ${main})
+    target_link_libraries(${name} PRIVATE ${module_name} aerogram_warnings)
+    set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}")
 endfunction()
 
 # aerogram_test(FOLDER MODULE...)   tests/FOLDER/*_test.cpp -> one GoogleTest program, each TEST a ctest.
@@ -39,4 +58,21 @@ function(aerogram_test folder)
     target_link_libraries(${name} PRIVATE aerogram_warnings GTest::gtest GTest::gmock GTest::gtest_main)
     target_compile_definitions(${name} PRIVATE AEROGRAM_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
     gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300)
+endfunction()
+
+# aerogram_python_test(NAME SCRIPT [TIMEOUT seconds] [ARGS arg...])
+# One ctest that runs tests/SCRIPT with the Python of .venv (./bootstrap test makes it). The script finds in its environment
+# AEROGRAM_PROGRAM (the built command), AEROGRAM_SOURCE_DIR and AEROGRAM_WORK_DIR (an own folder in the build tree).
+set(AEROGRAM_PYTHON "${PROJECT_SOURCE_DIR}/.venv/bin/python" CACHE FILEPATH "Python with the packages of tests/requirements.txt")
+function(aerogram_python_test name script)
+    cmake_parse_arguments(ARG "" "TIMEOUT" "ARGS" ${ARGN})
+    if(NOT ARG_TIMEOUT)
+        set(ARG_TIMEOUT 300)
+    endif()
+    set(work "${PROJECT_BINARY_DIR}/tests/work/${name}")
+    file(MAKE_DIRECTORY "${work}")
+    add_test(NAME ${name} COMMAND "${AEROGRAM_PYTHON}" "${PROJECT_SOURCE_DIR}/tests/${script}" ${ARG_ARGS}
+             WORKING_DIRECTORY "${work}")
+    set_tests_properties(${name} PROPERTIES TIMEOUT ${ARG_TIMEOUT} ENVIRONMENT
+        "AEROGRAM_PROGRAM=${PROJECT_BINARY_DIR}/aerogram;AEROGRAM_SOURCE_DIR=${PROJECT_SOURCE_DIR};AEROGRAM_WORK_DIR=${work};PYTHONDONTWRITEBYTECODE=1")
 endfunction()
