@@ -115,7 +115,7 @@ struct AdjacencyEdit {
 
 struct Fleet {
     std::size_t drones = 0;
-    Points pads_m;                     ///< >= drones places on the ground, show frame; drone i stands on pad i
+    Points pads_m;                     ///< exactly `drones` places on the ground, show frame; drone i stands on pad i
     double endurance_s = 900.0;
     int line = 0;
 };
@@ -131,7 +131,8 @@ struct Mission {
     geo::Airspace airspace;            ///< already in the show frame
     std::vector<Keyframe> keyframes;   ///< >= 1
     std::vector<Group> groups;
-    std::vector<Cue> cues;
+    std::vector<Cue> cues;             ///< in time order
+    double light_rate_hz = 25.0;       ///< [lights] rate_hz, [1, 50]
     std::vector<AdjacencyEdit> adjacency;
 
     /// "file:line: what" for messages of later stages, e.g. at(k.line, "keyframe[2].size_m = 3: needs >= 7.5").

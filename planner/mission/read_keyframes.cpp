@@ -1,0 +1,144 @@
+#include <algorithm>
+
+#include "geo/units.hpp"
+#include "planner/mission/sections.hpp"
+
+namespace aerogram::planner {
+
+namespace {
+
+// Parts that take the drones of one group must together take exactly that group.
+void check_groups(TableReader& in, const Keyframe& keyframe, const Mission& mission, std::vector<TableReader>& tables) {
+    for (std::size_t p = 0; p < keyframe.parts.size(); ++p) {
+        const std::string& name = keyframe.parts[p].group;
+        if (name.empty()) continue;
+        if (keyframe.arrive.assign != Assign::groups) {
+            tables[p].bad("group", "needs " + in.path() + ".arrive.assign = \"groups\"");
+        }
+        const auto same = [&](const Part& part) { return part.group == name; };
+        const auto before = keyframe.parts.begin() + static_cast<std::ptrdiff_t>(p);
+        if (std::any_of(keyframe.parts.begin(), before, same)) continue;
+        std::size_t sum = 0;
+        for (const Part& part : keyframe.parts) sum += same(part) ? part.drones : 0;
+        const auto group =
+            std::find_if(mission.groups.begin(), mission.groups.end(), [&](const Group& g) { return g.name == name; });
+        if (group->drones.empty() || sum == group->drones.size()) continue;
+        tables[p].bad("group", "the parts of this group take " + std::to_string(sum) + " drones; must take all " +
+                                   std::to_string(group->drones.size()) + " of it");
+    }
+}
+
+// Grids that say both rows and columns must have room for their drones.
+void check_grid(const Part& part, TableReader& table) {
+    const auto* shape = std::get_if<ShapeSource>(&part.source);
+    if (!shape || !shape->rows || !shape->columns) return;
+    const std::size_t places = std::size_t{*shape->rows} * *shape->columns;
+    if (places < part.drones) {
+        table.bad("columns",
+                  "rows x columns must be >= " + std::to_string(part.drones) + " drones, is " + std::to_string(places));
+    }
+}
+
+void read_parts(TableReader& in, Keyframe& keyframe, const Mission& mission) {
+    for (const std::string_view key : source_keys()) {
+        if (in.has(key)) in.bad(key, "stands beside [[keyframe.part]]; must be in a part");
+    }
+    keyframe.center_m = in.vec3("center_m").value_or(Vec3{});
+    const Vec3 rotate_deg = in.vec3("rotate_deg").value_or(Vec3{});
+    keyframe.rotate_rad = {radians(rotate_deg.x), radians(rotate_deg.y), radians(rotate_deg.z)};
+    const std::optional<Rgb> color = read_color(in);
+    std::vector<TableReader> tables = in.tables("part");
+    std::vector<CountWish> wishes;
+    for (TableReader& table : tables) {
+        PartWish wish = read_part(table, mission, true);
+        if (!wish.part.color) wish.part.color = color;
+        wishes.push_back({wish.drones, wish.share});
+        keyframe.parts.push_back(std::move(wish.part));
+    }
+    if (mission.fleet.drones == 0 || tables.empty()) return;
+    const auto counts = resolve_counts(wishes, mission.fleet.drones);
+    if (!counts) {
+        in.problems().add(in.line(), in.path() + ".part: " + counts.error().message);
+        return;
+    }
+    for (std::size_t p = 0; p < counts->size(); ++p) {
+        keyframe.parts[p].drones = (*counts)[p];
+        check_grid(keyframe.parts[p], tables[p]);
+    }
+    check_groups(in, keyframe, mission, tables);
+}
+
+void read_motion(TableReader& in) {
+    auto motion = in.table("motion");
+    if (!motion) return;
+    if (motion->number("spin_deg").value_or(0.0) != 0.0) motion->later("spin_deg", "must be 0");
+    if (motion->vec3("drift_m").value_or(Vec3{}) != Vec3{}) motion->later("drift_m", "must be [0, 0, 0]");
+    motion->finish();
+}
+
+Keyframe read_keyframe(TableReader& in, const Mission& mission) {
+    Keyframe keyframe;
+    keyframe.line = in.line();
+    in.need("name", "write a unique name = \"...\"");
+    keyframe.name = in.text("name").value_or("");
+    keyframe.at_s = in.number("at_s", at_least(0.0, 86400.0));
+    keyframe.hold_s = in.number("hold_s", at_least(0.0, 86400.0)).value_or(keyframe.hold_s);
+    keyframe.arrive = read_arrive(in, mission);
+    read_motion(in);
+    if (in.has("part")) {
+        read_parts(in, keyframe, mission);
+    } else {
+        keyframe.parts.push_back(read_part(in, mission, false).part);
+        keyframe.parts[0].drones = mission.fleet.drones;
+        check_grid(keyframe.parts[0], in);
+        for (const std::string_view key : {"drones", "share", "group"}) {
+            if (in.has(key))
+                in.bad(key, "belongs to a [[keyframe.part]]; a keyframe without parts takes the whole fleet");
+        }
+    }
+    in.finish();
+    return keyframe;
+}
+
+// What one keyframe demands of its neighbours.
+void check_order(std::vector<TableReader>& tables, const std::vector<Keyframe>& keyframes) {
+    std::optional<std::size_t> timed;  // the last keyframe with a time
+    for (std::size_t k = 0; k < keyframes.size(); ++k) {
+        const Keyframe& keyframe = keyframes[k];
+        for (std::size_t j = 0; j < k; ++j) {
+            if (keyframe.name.empty() || keyframes[j].name != keyframe.name) continue;
+            tables[k].bad("name", "must be unique; " + keyframe_key(j) + " at line " +
+                                      std::to_string(keyframes[j].line) + " has it too");
+            break;
+        }
+        if (keyframe.at_s) {
+            if (timed && *keyframe.at_s <= *keyframes[*timed].at_s) {
+                tables[k].bad("at_s",
+                              "must be > " + shown(*keyframes[*timed].at_s) + ", the time of " + keyframe_key(*timed));
+            }
+            timed = k;
+        }
+        if (keyframe.hold_s > 0.0) continue;
+        if (k + 1 == keyframes.size()) {
+            tables[k].bad("hold_s", "must be > 0 in the last keyframe");
+        } else if (keyframes[k + 1].arrive.method != Method::flow) {
+            tables[k].bad("hold_s", "must be > 0; 0 only where the next keyframe has arrive.method = \"flow\"");
+        }
+    }
+}
+
+}  // namespace
+
+void read_keyframes(TableReader& root, Mission& mission) {
+    std::vector<TableReader> tables = root.tables("keyframe");
+    if (!root.has("keyframe")) {
+        root.need("keyframe", "write at least one [[keyframe]] with a name and a text, csv or shape");
+    } else if (tables.empty() && std::holds_alternative<TomlArray>(root.find("keyframe")->data)) {
+        if (std::get<TomlArray>(root.find("keyframe")->data).empty())
+            root.bad("keyframe", "must be at least one [[keyframe]]");
+    }
+    for (TableReader& table : tables) mission.keyframes.push_back(read_keyframe(table, mission));
+    check_order(tables, mission.keyframes);
+}
+
+}  // namespace aerogram::planner

@@ -1,0 +1,201 @@
+#include <algorithm>
+#include <array>
+
+#include "geo/units.hpp"
+#include "planner/mission/sections.hpp"
+
+namespace aerogram::planner {
+
+namespace {
+
+constexpr std::array<std::string_view, 7> kSources{"text", "csv", "shape", "svg", "image", "mesh", "sketch"};
+constexpr std::array<std::string_view, 15> kSourceKeys{"text",    "csv",    "shape", "svg",    "image",
+                                                       "mesh",    "sketch", "font",  "style",  "rows",
+                                                       "columns", "turns",  "inner", "size_m", "depth_m"};
+
+enum class Font { stroke };
+
+TextSource read_text(TableReader& in) {
+    TextSource out;
+    out.text = in.text("text").value_or("");
+    const bool blank = std::all_of(out.text.begin(), out.text.end(),
+                                   [](char c) { return c == ' ' || c == '\n' || c == '\t' || c == '\r'; });
+    if (blank && !out.text.empty()) in.bad("text", "must hold a character that can be seen");
+    if (const auto font = in.text("font"); font && *font != "stroke") {
+        in.bad("font", "font families and font files are not in this version; must be \"stroke\"");
+    }
+    using enum TextStyle;
+    in.choice<TextStyle>("style", {{"stroke", stroke}, {"outline", {}}, {"fill", {}}, {"solid", {}}});
+    return out;
+}
+
+ShapeSource read_shape(TableReader& in) {
+    using enum ShapeKind;
+    ShapeSource out;
+    const auto kind = in.choice<ShapeKind>("shape", {{"line", line},
+                                                     {"grid", grid},
+                                                     {"circle", circle},
+                                                     {"sphere", sphere},
+                                                     {"helix", helix},
+                                                     {"disc", {}},
+                                                     {"ring", {}},
+                                                     {"star", {}},
+                                                     {"heart", {}},
+                                                     {"polygon", {}},
+                                                     {"spiral", {}},
+                                                     {"cube", {}},
+                                                     {"box", {}},
+                                                     {"cylinder", {}},
+                                                     {"cone", {}},
+                                                     {"torus", {}}});
+    out.kind = kind.value_or(line);
+    const auto count = [&](std::string_view key) -> std::optional<std::uint32_t> {
+        const auto n = in.integer(key, 1, 100000);
+        if (n && kind && kind != grid) in.bad(key, "only shape = \"grid\" has " + std::string(key));
+        return n ? std::optional(static_cast<std::uint32_t>(*n)) : std::nullopt;
+    };
+    out.rows = count("rows");
+    out.columns = count("columns");
+    const auto turns = in.number("turns", more_than(0.0, 1000.0));
+    if (turns && kind && kind != helix) in.bad("turns", "only shape = \"helix\" has turns");
+    out.turns = turns.value_or(out.turns);
+    return out;
+}
+
+// Keys that another source would have.
+void refuse_foreign_keys(TableReader& in, std::string_view source) {
+    const auto only = [&](std::string_view owner, std::initializer_list<std::string_view> keys) {
+        for (const std::string_view key : keys) {
+            if (in.has(key) && source != owner)
+                in.bad(key, "belongs to " + std::string(owner) + "; this source is " + std::string(source));
+        }
+    };
+    only("text", {"font", "style"});
+    only("shape", {"rows", "columns", "turns"});
+    in.later("depth_m", "sources are strokes and points, without depth");
+    in.later("inner", "a key of shape = \"ring\"");
+}
+
+Source read_source(TableReader& in, bool is_part) {
+    std::vector<std::string_view> present;
+    for (const std::string_view key : kSources) {
+        if (in.has(key)) present.push_back(key);
+    }
+    const std::string now = "text, csv or shape";
+    if (present.empty()) {
+        in.know({"font", "style", "rows", "columns", "turns", "inner", "depth_m"});
+        in.problems().add(in.line(),
+                          in.path() + ": no source; write one of " + now + (is_part ? "" : ", or [[keyframe.part]]s"));
+        return TextSource{};
+    }
+    if (present.size() > 1) {
+        in.know({"font", "style", "rows", "columns", "turns", "inner", "depth_m"});
+        in.bad(present[1], "second source beside " + std::string(present[0]) + "; must be exactly one of " + now +
+                               (is_part ? "" : " (several: [[keyframe.part]]s)"));
+        return TextSource{};
+    }
+    Source source;
+    if (present[0] == "text") {
+        source = read_text(in);
+    } else if (present[0] == "csv") {
+        source = CsvSource{in.file("csv", "a CSV file with the header Name,x_m,y_m,z_m[,Red,Green,Blue]").value_or("")};
+    } else if (present[0] == "shape") {
+        source = read_shape(in);
+    } else if (in.text(present[0])) {
+        in.bad(present[0], "source not in this version; must be " + now);
+    }
+    refuse_foreign_keys(in, present[0]);
+    return source;
+}
+
+bool is_flat(const Source& source) {
+    if (std::holds_alternative<TextSource>(source)) return true;
+    const auto* shape = std::get_if<ShapeSource>(&source);
+    return shape && shape->kind != ShapeKind::sphere && shape->kind != ShapeKind::helix;
+}
+
+Size read_size(TableReader& in, bool flat) {
+    Size size;
+    const TomlValue* value = in.find("size_m");
+    if (!value) return size;
+    if (std::holds_alternative<TomlTable>(value->data)) {
+        TableReader table = *in.table("size_m");
+        size.width_m = table.number("width", more_than(0.0, 10000.0));
+        size.height_m = table.number("height", more_than(0.0, 10000.0));
+        size.depth_m = table.number("depth", more_than(0.0, 10000.0));
+        if (flat && size.depth_m) table.bad("depth", "a flat source has width and height only");
+        if (table.entries().empty()) in.bad("size_m", "must have width, height or depth");
+        table.finish();
+        return size;
+    }
+    const auto v =
+        flat ? in.numbers("size_m", 1, 2, "[width], [width, height] or { height = 16 }, each > 0 and <= 10000",
+                          more_than(0.0, 10000.0))
+             : in.numbers("size_m", 1, 3,
+                          "[width], [x, y, z] or { width = .., depth = .., height = .. }, each > 0 and <= 10000",
+                          more_than(0.0, 10000.0));
+    if (!v) return size;
+    if (!flat && v->size() == 2) {
+        in.bad("size_m", "a solid source has three: must be [x, y, z], [width] or a table");
+        return size;
+    }
+    size.width_m = (*v)[0];
+    if (v->size() == 3) size.depth_m = (*v)[1];
+    if (v->size() > 1) size.height_m = v->back();
+    return size;
+}
+
+}  // namespace
+
+std::span<const std::string_view> source_keys() {
+    return kSourceKeys;
+}
+
+std::optional<Rgb> read_color(TableReader& in) {
+    const TomlValue* value = in.find("color");
+    if (!value) return std::nullopt;
+    if (std::holds_alternative<TomlTable>(value->data)) {
+        in.bad("color", "gradients are not in this version; must be \"#rgb\" or \"#rrggbb\"");
+        return std::nullopt;
+    }
+    const auto* text = std::get_if<std::string>(&value->data);
+    if (text) {
+        if (Result<Rgb> color = rgb_from_hex(*text)) return *color;
+    }
+    in.bad("color", "must be \"#rgb\" or \"#rrggbb\"");
+    return std::nullopt;
+}
+
+PartWish read_part(TableReader& in, const Mission& mission, bool is_part) {
+    PartWish wish;
+    Part& part = wish.part;
+    part.line = in.line();
+    part.source = read_source(in, is_part);
+    part.size = read_size(in, is_flat(part.source));
+    part.center_m = in.vec3("center_m").value_or(Vec3{});
+    const Vec3 rotate_deg = in.vec3("rotate_deg").value_or(Vec3{});
+    part.rotate_rad = {radians(rotate_deg.x), radians(rotate_deg.y), radians(rotate_deg.z)};
+    part.color = read_color(in);
+    if (!is_part) return wish;
+    const auto drones = in.integer("drones", 1, 100000);
+    if (drones) wish.drones = static_cast<std::size_t>(*drones);
+    wish.share = in.number("share", more_than(0.0, 1.0));
+    if (in.has("drones") && in.has("share")) in.bad("share", "stands beside drones; must be one of the two");
+    part.group = in.text("group").value_or("");
+    in.finish();
+    if (part.group.empty()) return wish;
+    const auto group = std::find_if(mission.groups.begin(), mission.groups.end(),
+                                    [&](const Group& g) { return g.name == part.group; });
+    if (group == mission.groups.end()) {
+        std::vector<std::string_view> names;
+        for (const Group& g : mission.groups) names.push_back(g.name);
+        in.bad("group", names.empty() ? "there is no [[group]] in this mission"
+                                      : "must be a group of this mission: " + one_of(names));
+        part.group.clear();
+    } else if (!wish.drones && !wish.share && !group->drones.empty()) {
+        wish.drones = group->drones.size();
+    }
+    return wish;
+}
+
+}  // namespace aerogram::planner

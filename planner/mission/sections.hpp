@@ -1,0 +1,57 @@
+#pragma once
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "planner/mission/mission.hpp"
+#include "planner/mission/table_reader.hpp"
+
+/// The parts of a mission file, each read by one function from its table into the mission. Problems go to the reader's
+/// Problems; later functions rely on what earlier ones filled in and skip checks against values that were themselves
+/// wrong. In the order of reading.
+namespace aerogram::planner {
+
+void read_show(TableReader& root, Mission& mission);
+void read_limits(TableReader& root, Mission& mission);
+/// After show and limits. A fleet that cannot be counted leaves mission.fleet.drones at 0.
+void read_fleet(TableReader& root, Mission& mission);
+void read_airspace(TableReader& root, Mission& mission);
+void read_lights(TableReader& root, Mission& mission);
+void read_groups(TableReader& root, Mission& mission);
+void read_cues(TableReader& root, Mission& mission);
+void read_adjacency(TableReader& root, Mission& mission);
+void read_keyframes(TableReader& root, Mission& mission);
+/// Refuses what only later versions know: [[light]], [carrier].
+void refuse_later_sections(TableReader& root);
+
+/// [keyframe.arrive]. @param in  the keyframe.
+Arrive read_arrive(TableReader& in, const Mission& mission);
+
+/// The source, size, place, colour, share and group of a keyframe without parts or of one part.
+struct PartWish {
+    Part part;
+    std::optional<std::size_t> drones;
+    std::optional<double> share;
+};
+PartWish read_part(TableReader& in, const Mission& mission, bool is_part);
+/// `color = "#rgb"` or "#rrggbb".
+std::optional<Rgb> read_color(TableReader& in);
+/// The keys that say what a formation looks like: they belong to the keyframe or to its parts, never to both.
+[[nodiscard]] std::span<const std::string_view> source_keys();
+
+/// Whole drones for each part: counts as given, shares by largest remainder, the others share the rest equally.
+/// Properties: (1) sums to the fleet (2) every part has >= 1 (3) a share's count is within 1 of share * fleet.
+/// Errors: invalid_input when the parts ask for more or fewer drones than the fleet has.
+struct CountWish {
+    std::optional<std::size_t> drones;
+    std::optional<double> share;
+};
+Result<std::vector<std::size_t>> resolve_counts(std::span<const CountWish> parts, std::size_t fleet);
+
+/// Drones of a list such as "1-5,8" (numbers from 1), ascending.
+/// Errors: invalid_input saying what is wrong: not a list, out of 1..fleet, named twice. @param fleet  0: any number
+/// will do.
+Result<std::vector<DroneId>> parse_drone_list(std::string_view list, std::size_t fleet);
+
+}  // namespace aerogram::planner
