@@ -13,8 +13,8 @@ struct PlanOptions {
 /// Plans a mission: formations, who flies where, transitions, separation, timing, certificate (DESIGN.md 1).
 /// Properties: (1) same mission, same plan, whatever run.threads (2) every act's certificate holds, or the call fails
 /// (best_effort excepted).
-/// Errors: invalid_input at a mission line; infeasible naming act, pair, time and distance or the limit and what would do;
-/// stopped.
+/// Errors: invalid_input at a mission line; infeasible naming act, pair, time and distance or the limit and what would
+/// do; stopped.
 Result<FlightPlan> plan(const Mission& mission, const PlanOptions& options, const Run& run);
 
 }  // namespace aerogram::planner

@@ -1,0 +1,111 @@
+#include "planner/plan.hpp"
+
+#include <iomanip>
+#include <optional>
+#include <sstream>
+
+#include "geo/units.hpp"
+#include "planner/leg.hpp"
+#include "planner/route.hpp"
+#include "planner/timeline.hpp"
+
+namespace aerogram::planner {
+namespace {
+
+/// Runs task(i) -> Result<T> for each i and gathers the values, or the error of the lowest i.
+template <class T, class Task>
+Result<std::vector<T>> gather(std::size_t count, const Run& run, std::string_view stage, const Task& task) {
+    std::vector<std::optional<Result<T>>> results(count);
+    parallel_for(count, run, stage, [&](std::size_t i) { results[i] = task(i); });
+    std::vector<T> values;
+    for (auto& result : results) {
+        if (!result) return stopped_error();
+        if (!*result) return result->error();
+        values.push_back(std::move(**result));
+    }
+    return values;
+}
+
+Result<std::vector<LegMotion>> plan_legs(const Mission& mission, const Route& route, const std::vector<Leg>& legs,
+                                         const Run& run) {
+    const Run quiet{run.stop, nullptr, 1};
+    return gather<LegMotion>(legs.size(), run, "transitions",
+                             [&](std::size_t l) { return plan_leg(mission, route, legs[l], quiet); });
+}
+
+Result<Certificate> certify_acts(const Mission& mission, const std::vector<Act>& acts, const Run& run) {
+    const Surroundings surroundings{geo::ShowFrame(mission.origin), mission.airspace, mission.fleet.pads_m,
+                                    mission.limits};
+    const Run quiet{run.stop, nullptr, 1};
+    auto certificates = gather<ActCertificate>(acts.size(), run, "certificate",
+                                               [&](std::size_t a) { return certify(acts[a], surroundings, quiet); });
+    if (!certificates) return certificates.error();
+    Certificate certificate{std::move(*certificates), {}};
+    const double total_s = seconds_from_ms(acts.back().end_ms());
+    if (total_s > mission.fleet.endurance_s) {
+        std::ostringstream text;
+        text << std::setprecision(6) << "the show lasts " << total_s
+             << " s, longer than endurance_s = " << mission.fleet.endurance_s;
+        certificate.violations.push_back(text.str());
+    }
+    return certificate;
+}
+
+void tell_how(Certificate& certificate, const Timeline& timeline, const std::vector<Leg>& legs,
+              const std::vector<LegReport>& reports) {
+    for (std::size_t a = 0; a < certificate.acts.size(); ++a) {
+        ActCertificate& act = certificate.acts[a];
+        act.method = "hold";
+        if (!timeline.leg_of[a]) continue;
+        const LegReport& report = reports[*timeline.leg_of[a]];
+        act.method = report.method;
+        act.separation_by = report.separation_by;
+        act.separation_rounds = report.separation_rounds;
+        act.path_ratio = report.path_ratio;
+        act.assignment = legs[*timeline.leg_of[a]].assignment;
+    }
+}
+
+Error refusal(const Mission& mission, const Certificate& certificate) {
+    std::string message = mission.file.string() + ": this show cannot be flown within its limits";
+    for (const std::string& violation : certificate.violations) message += "\n  " + violation;
+    for (const ActCertificate& act : certificate.acts) {
+        for (const std::string& violation : act.violations) message += "\n  " + violation;
+    }
+    return {ErrorCode::infeasible, message};
+}
+
+}  // namespace
+
+Result<FlightPlan> plan(const Mission& mission, const PlanOptions& options, const Run& run) {
+    auto route = build_route(mission, run);
+    if (!route) return route.error();
+    const std::vector<Leg> legs = legs_of(mission, *route);
+    auto motions = plan_legs(mission, *route, legs, run);
+    if (!motions) return motions.error();
+    std::vector<LegReport> reports;
+    for (const LegMotion& motion : *motions) reports.push_back(motion.report);
+    auto timeline = build_timeline(mission, *route, legs, std::move(*motions));
+    if (!timeline) return timeline.error();
+    auto certificate = certify_acts(mission, timeline->acts, run);
+    if (!certificate) return certificate.error();
+    tell_how(*certificate, *timeline, legs, reports);
+    if (!certificate->certified() && !options.best_effort) return refusal(mission, *certificate);
+
+    FlightPlan plan;
+    plan.name = mission.name;
+    plan.origin = mission.origin;
+    plan.limits = mission.limits;
+    plan.airspace = mission.airspace;
+    plan.endurance_s = mission.fleet.endurance_s;
+    plan.pads_m = mission.fleet.pads_m;
+    plan.tracks = build_tracks(timeline->keyframes, timeline->acts, mission.fleet.drones);
+    plan.acts = std::move(timeline->acts);
+    plan.keyframes = std::move(timeline->keyframes);
+    plan.cues = mission.cues;
+    plan.audio = mission.audio;
+    plan.certificate = std::move(*certificate);
+    return plan;
+}
+
+}  // namespace aerogram::planner
