@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -12,9 +13,10 @@ Result<std::string> read_file(const std::filesystem::path& file, std::uintmax_t 
 /// Creates or replaces a file, folders included. Errors: io.
 Status write_file(const std::filesystem::path& file, std::string_view bytes);
 
-/// A folder being written beside its destination; `commit` swaps it in with renameat2(RENAME_EXCHANGE), so that a reader, or
-/// whoever comes after a kill -9, finds the old folder or the new one, complete. Uncommitted folders are removed; leftovers
-/// of killed runs are removed by the next one.
+/// A folder being written beside its destination; `commit` swaps it in with renameat2(RENAME_EXCHANGE), so that a
+/// reader, or whoever comes after a kill -9, finds the old folder or the new one, complete. Uncommitted folders are
+/// removed; leftovers of killed runs are removed by the next one that writes the same destination. A staging folder is
+/// locked (flock) while its process lives: such folders are nobody's leftovers.
 class StagedFolder {
   public:
     /// Errors: io when the parent cannot be written, invalid_input when the destination exists and is no folder of ours
@@ -25,12 +27,15 @@ class StagedFolder {
     ~StagedFolder();
 
     [[nodiscard]] const std::filesystem::path& path() const { return staging_; }
-    /// Flushes to disk and swaps. Errors: io.
+    /// Flushes to disk and swaps. Errors: io; the destination is then as it was.
     Status commit();
 
   private:
     StagedFolder() = default;
+    void discard() noexcept;
+
     std::filesystem::path staging_, destination_;
+    int lock_ = -1;  ///< descriptor of the locked staging folder
 };
 
 }  // namespace aerogram::exporter
