@@ -19,10 +19,10 @@ struct Formation {
 };
 
 /// The formation of mission.keyframes[index]: exactly fleet.drones slots, in a stable order, placed in the show frame.
-/// Properties: (1) N exact (2) smallest spacing >= limits.formation_spacing_m (3) ends and corners of strokes are occupied
-/// whenever N allows (4) same mission, same bytes.
-/// Errors: invalid_input at the part's line when the source is unusable, when the spacing does not fit ("needs size_m >= ..."),
-/// or when a slot is below the minimum navigation altitude or above the ceiling.
+/// Properties: (1) N exact (2) smallest spacing >= limits.formation_spacing_m (3) ends and corners of strokes are
+/// occupied whenever N allows (4) same mission, same bytes. Errors: invalid_input at the part's line when the source is
+/// unusable, when the spacing does not fit ("needs size_m >= ..."), or when a slot is below the minimum navigation
+/// altitude or above the ceiling.
 Result<Formation> build_formation(const Mission& mission, std::size_t index, const Run& run);
 
 /// Smallest distance between any two points in the separation metric, and between which; hash grid, O(n).

@@ -1,0 +1,17 @@
+#include "planner/formation/figure.hpp"
+
+#include <variant>
+
+namespace aerogram::planner {
+
+Error PartRef::error(const std::string& what) const {
+    return {ErrorCode::invalid_input, mission.at(part.line, key + what)};
+}
+
+Result<Figure> figure_of(const PartRef& ref, const Run& run) {
+    if (const auto* text = std::get_if<TextSource>(&ref.part.source)) return text_figure(ref, *text);
+    if (const auto* csv = std::get_if<CsvSource>(&ref.part.source)) return csv_figure(ref, *csv);
+    return shape_figure(ref, std::get<ShapeSource>(ref.part.source), run);
+}
+
+}  // namespace aerogram::planner

@@ -1,0 +1,180 @@
+#include "planner/formation/formation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/mat3x3.hpp>
+#include <limits>
+#include <numeric>
+#include <sstream>
+
+#include "planner/formation/figure.hpp"
+#include "planner/formation/sizing.hpp"
+
+namespace aerogram::planner {
+namespace {
+
+constexpr double kAltitudeTolerance_m = 1e-9;
+
+/// About x, then y, then z, counter-clockwise seen from the axis' tip.
+glm::dmat3 rotation(const Vec3& rotate_rad) {
+    const Vec3 c(std::cos(rotate_rad.x), std::cos(rotate_rad.y), std::cos(rotate_rad.z));
+    const Vec3 s(std::sin(rotate_rad.x), std::sin(rotate_rad.y), std::sin(rotate_rad.z));
+    const glm::dmat3 about_x(1, 0, 0, 0, c.x, s.x, 0, -s.x, c.x);  // by columns
+    const glm::dmat3 about_y(c.y, 0, -s.y, 0, 1, 0, s.y, 0, c.y);
+    const glm::dmat3 about_z(c.z, s.z, 0, -s.z, c.z, 0, 0, 0, 1);
+    return about_z * about_y * about_x;
+}
+
+/// One part on its way: the figure, its points, and how they come to stand.
+struct PlacedPart {
+    PartRef ref;
+    Figure figure;
+    SizedFigure drawn;
+    SpacingOf spacing_of;
+    std::size_t first_slot = 0;
+};
+
+/// `value` with two decimals, rounded down so that it never looks like the limit it fails.
+std::string floored(double value) {
+    std::ostringstream text;
+    text.setf(std::ios::fixed);
+    text.precision(2);
+    text << std::floor(value * 100.0) / 100.0;
+    return text.str();
+}
+
+std::string shortest(double value) {
+    std::ostringstream text;
+    text << value;
+    return text.str();
+}
+
+class Builder {
+  public:
+    Builder(const Mission& mission, std::size_t index, const Run& run)
+        : mission_(mission),
+          keyframe_(mission.keyframes[index]),
+          key_(keyframe_key(index)),
+          run_(run),
+          metric_{mission.limits.downwash},
+          turn_(rotation(keyframe_.rotate_rad)) {}
+
+    Result<Formation> build() {
+        parts_.reserve(keyframe_.parts.size());
+        for (std::size_t p = 0; p < keyframe_.parts.size(); ++p) {
+            if (const Status added = add_part(p); !added) return added.error();
+            if (run_.stopped()) return stopped_error();
+        }
+        check_spacing();
+        check_altitudes();
+        if (!problems_.empty()) return Error{ErrorCode::invalid_input, problems_};
+        return std::move(out_);
+    }
+
+  private:
+    Status add_part(std::size_t p) {
+        const Part& part = keyframe_.parts[p];
+        const bool alone = keyframe_.parts.size() == 1;
+        PartRef ref{mission_, part, alone ? key_ : key_ + ".part[" + std::to_string(p + 1) + "]"};
+        if (part.drones == 0) return ref.error(".drones = 0: must be > 0");
+        auto figure = figure_of(ref, run_);
+        if (!figure) return figure.error();
+
+        const glm::dmat3 part_turn = rotation(part.rotate_rad);
+        const SpacingOf spacing_of = [this, part_turn](const Points& points) {
+            if (points.size() < 2) return std::numeric_limits<double>::infinity();
+            Points turned;
+            turned.reserve(points.size());
+            for (const Vec3& q : points) turned.push_back(turn_ * (part_turn * q));
+            return closest_pair(turned, metric_).distance_m;
+        };
+        SizedFigure drawn = sized(*figure, part.size, mission_.limits.formation_spacing_m, spacing_of);
+        AEROGRAM_REQUIRE(drawn.points_m.size() == part.drones, drawn.points_m.size(), part.drones);
+        const std::size_t first = out_.points_m.size();
+        for (std::size_t i = 0; i < part.drones; ++i) {
+            const Vec3 in_keyframe = part_turn * drawn.points_m[i] + part.center_m;
+            out_.points_m.push_back(turn_ * in_keyframe + keyframe_.center_m);
+            const Rgb own = figure->colors.empty() ? Rgb{1.0, 1.0, 1.0} : figure->colors[i];
+            out_.colors.push_back(part.color.value_or(own));
+            out_.part.push_back(static_cast<std::uint32_t>(p));
+        }
+        parts_.push_back({std::move(ref), std::move(*figure), std::move(drawn), spacing_of, first});
+        return Done{};
+    }
+
+    void check_spacing() {
+        if (out_.points_m.size() < 2) return;
+        const ClosestPair pair = closest_pair(out_.points_m, metric_);
+        out_.smallest_spacing_m = pair.distance_m;
+        const double wanted_m = mission_.limits.formation_spacing_m;
+        if (pair.distance_m >= wanted_m - kSpacingTolerance_m) return;
+        const PlacedPart& part = parts_[out_.part[pair.first]];
+        const bool same_part = out_.part[pair.first] == out_.part[pair.second];
+        const std::string slots = "(slots " + std::to_string(SlotId(pair.first).number()) + " and " +
+                                  std::to_string(SlotId(pair.second).number()) + ")";
+        const std::string too_close = ": smallest spacing " + floored(pair.distance_m) + " m " + slots +
+                                      " is below formation_spacing_m = " + shortest(wanted_m);
+        if (!same_part) {
+            const PlacedPart& other = parts_[out_.part[pair.second]];
+            problem(other.ref, ".center_m" + too_close + "; move it away from " + part.ref.key);
+        } else if (part.spacing_of(part.drawn.points_m) <= 0.0) {
+            problem(part.ref, too_close + "; no size_m can part points in the same place");
+        } else {
+            problem(part.ref, ".size_m" + too_close + "; needs size_m >= " +
+                                  needed_size(part.figure, part.drawn, wanted_m, part.spacing_of));
+        }
+    }
+
+    /// One message a part and bound: its lowest slot above the lowest altitude, its highest below the ceiling.
+    void check_altitudes() {
+        const double low_m = mission_.limits.min_navigation_altitude_m, high_m = mission_.limits.ceiling_m;
+        for (const PlacedPart& part : parts_) {
+            const auto begin = out_.points_m.begin() + static_cast<std::ptrdiff_t>(part.first_slot);
+            const auto end = begin + static_cast<std::ptrdiff_t>(part.ref.part.drones);
+            const auto [low, high] =
+                std::minmax_element(begin, end, [](const Vec3& a, const Vec3& b) { return a.z < b.z; });
+            const auto slot_at = [&](Points::iterator place) {
+                return ".center_m: slot " +
+                       std::to_string(SlotId(static_cast<std::size_t>(place - out_.points_m.begin())).number()) +
+                       " stands at z = " + floored(place->z) + " m, ";
+            };
+            if (low->z < low_m - kAltitudeTolerance_m) {
+                problem(part.ref, slot_at(low) + "below min_navigation_altitude_m = " + shortest(low_m) +
+                                      "; raise it by " + shortest(std::ceil((low_m - low->z) * 10.0 - 1e-9) / 10.0) +
+                                      " m");
+            }
+            if (high->z > high_m + kAltitudeTolerance_m) {
+                problem(part.ref, slot_at(high) + "above ceiling_m = " + shortest(high_m) + "; lower it by " +
+                                      shortest(std::ceil((high->z - high_m) * 10.0 - 1e-9) / 10.0) + " m");
+            }
+        }
+    }
+
+    void problem(const PartRef& ref, const std::string& what) {
+        if (!problems_.empty()) problems_ += '\n';
+        problems_ += ref.error(what).message;
+    }
+
+    const Mission& mission_;
+    const Keyframe& keyframe_;
+    std::string key_;
+    const Run& run_;
+    SeparationMetric metric_;
+    glm::dmat3 turn_;
+    std::vector<PlacedPart> parts_;
+    Formation out_;
+    std::string problems_;
+};
+
+}  // namespace
+
+Result<Formation> build_formation(const Mission& mission, std::size_t index, const Run& run) {
+    AEROGRAM_REQUIRE(index < mission.keyframes.size(), index, mission.keyframes.size());
+    const auto& parts = mission.keyframes[index].parts;
+    const auto drones = std::accumulate(parts.begin(), parts.end(), std::size_t{0},
+                                        [](std::size_t sum, const Part& part) { return sum + part.drones; });
+    AEROGRAM_REQUIRE(drones == mission.fleet.drones, drones, mission.fleet.drones);
+    return Builder(mission, index, run).build();
+}
+
+}  // namespace aerogram::planner
