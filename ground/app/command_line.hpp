@@ -1,0 +1,45 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "geo/result.hpp"
+
+/// What was typed, as values. Parsing knows no command's work; the commands know no parser.
+namespace aerogram::ground {
+
+struct PlanCommand {
+    std::filesystem::path mission;
+    std::filesystem::path out;         ///< empty: out/<mission file's stem>
+    std::vector<std::string> formats;  ///< empty: all that suit the show
+    bool best_effort = false;
+};
+struct VerifyCommand {
+    std::vector<std::filesystem::path> paths;
+};
+struct InspectCommand {
+    std::filesystem::path file;
+    std::vector<double> at_s;
+};
+struct NewCommand {
+    std::string name;
+};
+
+struct CommandLine {
+    std::variant<PlanCommand, VerifyCommand, InspectCommand, NewCommand> command;
+    unsigned threads = 1;
+    bool json = false;
+    bool quiet = false;
+};
+
+/// Text to print and the exit status to leave with: help, the version, or what is wrong with the arguments.
+struct Farewell {
+    std::string text;
+    int status = 0;
+};
+
+/// Without arguments the command explains itself.
+std::variant<CommandLine, Farewell> parse_command_line(int argc, const char* const* argv);
+
+}  // namespace aerogram::ground

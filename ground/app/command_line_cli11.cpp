@@ -1,0 +1,77 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <sstream>
+#include <thread>
+
+#include "export/format.hpp"
+#include "export/program.hpp"
+#include "ground/app/command_line.hpp"
+#include "ground/app/exit_status.hpp"
+
+namespace aerogram::ground {
+namespace {
+
+std::string format_list() {
+    std::string names;
+    for (const auto& format : exporter::formats()) names += (names.empty() ? "" : ",") + std::string(format.name);
+    return names;
+}
+
+constexpr const char* kIntroduction =
+    "Plans 3D airshow and drone formations: from a mission file to certified trajectories and files for ground "
+    "stations.\n"
+    "Start with:  aerogram new my-show   then:  aerogram plan my-show.toml";
+
+}  // namespace
+
+std::variant<CommandLine, Farewell> parse_command_line(int argc, const char* const* argv) {
+    CommandLine line;
+    line.threads = std::max(1U, std::thread::hardware_concurrency());
+    CLI::App app(kIntroduction, "aerogram");
+    app.set_version_flag("--version", std::string(exporter::kProgramName) + " " + std::string(exporter::kProgramVersion));
+    app.require_subcommand(1);
+    app.fallthrough();
+    app.add_flag("--json", line.json, "print one machine-readable object on stdout; messages go to stderr");
+    app.add_flag("--quiet", line.quiet, "no progress and no summary; errors only");
+    app.add_option("--threads", line.threads, "threads to use; results do not depend on it")
+        ->check(CLI::Range(1U, 256U));
+
+    PlanCommand plan;
+    auto* plan_app = app.add_subcommand("plan", "plan a mission, certify it and write every export");
+    plan_app->add_option("MISSION", plan.mission, "mission file (TOML)")->required();
+    plan_app->add_option("-o,--out", plan.out, "folder to write; replaced as a whole (default: out/<mission name>)");
+    plan_app->add_option("--format", plan.formats, "only these formats, comma separated: " + format_list())
+        ->delimiter(',');
+    plan_app->add_flag("--best-effort", plan.best_effort,
+                       "write the show even where it is not certified, marked as such");
+
+    VerifyCommand verify;
+    auto* verify_app =
+        app.add_subcommand("verify", "re-read exported files and judge them again, from the files alone");
+    verify_app->add_option("PATH", verify.paths, "show folders or single files")->required();
+
+    InspectCommand inspect;
+    auto* inspect_app = app.add_subcommand("inspect", "tell what is in an exported file");
+    inspect_app->add_option("FILE", inspect.file, "a file in any format we read")->required();
+    inspect_app->add_option("--at", inspect.at_s, "show positions and colours at these times, seconds");
+
+    NewCommand create;
+    auto* new_app = app.add_subcommand("new", "write a commented mission to start from");
+    new_app->add_option("NAME", create.name, "the mission's name; writes NAME.toml")->required();
+
+    if (argc <= 1) return Farewell{app.help(), kDone};
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        std::ostringstream out, wrong;
+        const int status = app.exit(error, out, wrong) == 0 ? kDone : kBadInput;
+        return Farewell{out.str() + wrong.str(), status};
+    }
+    if (*plan_app) line.command = plan;
+    if (*verify_app) line.command = verify;
+    if (*inspect_app) line.command = inspect;
+    if (*new_app) line.command = create;
+    return line;
+}
+
+}  // namespace aerogram::ground

@@ -1,0 +1,29 @@
+#pragma once
+#include <chrono>
+#include <iosfwd>
+#include <string>
+#include <string_view>
+
+namespace aerogram::ground {
+
+/// Where messages go: stderr. On a terminal progress is one line that is rewritten; elsewhere each stage is a plain
+/// line.
+class Console {
+  public:
+    explicit Console(bool quiet);
+    ~Console();
+    Console(const Console&) = delete;
+    Console& operator=(const Console&) = delete;
+
+    void progress(std::string_view stage, double fraction);
+    void error(std::string_view message);
+
+  private:
+    void clear_line();
+    bool quiet_, terminal_;
+    bool line_shown_ = false;
+    std::string stage_;
+    std::chrono::steady_clock::time_point drawn_{};
+};
+
+}  // namespace aerogram::ground

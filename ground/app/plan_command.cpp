@@ -1,0 +1,108 @@
+#include <algorithm>
+#include <iostream>
+#include <sstream>
+
+#include "export/export_show.hpp"
+#include "geo/units.hpp"
+#include "ground/app/answers.hpp"
+#include "ground/app/commands.hpp"
+#include "ground/app/exit_status.hpp"
+#include "ground/app/words.hpp"
+#include "planner/mission/mission_reader.hpp"
+#include "planner/plan.hpp"
+
+namespace aerogram::ground {
+namespace {
+
+using planner::ActCertificate;
+using planner::Certificate;
+using planner::FlightPlan;
+
+const ActCertificate& closest_act(const Certificate& certificate) {
+    return *std::min_element(certificate.acts.begin(), certificate.acts.end(), [](const auto& a, const auto& b) {
+        return a.separation.lower_bound_m < b.separation.lower_bound_m;
+    });
+}
+
+std::string separation_line(const FlightPlan& plan) {
+    const double required_m = planned_separation_m(plan.limits);
+    if (plan.drones() < 2) return "separation     one drone: nothing to keep apart\n";
+    const ActCertificate& act = closest_act(plan.certificate);
+    std::string line = "separation     >= " + decimals(act.separation.lower_bound_m, 3) +
+                       " m at every instant (required " + decimals(required_m, 2) + ")";
+    if (act.separation.closest) {
+        const auto& e = *act.separation.closest;
+        line += ", closest: drones " + std::to_string(e.first.number()) + " and " + std::to_string(e.second.number()) +
+                " at " + decimals(seconds_from_ms(act.start_ms) + e.time_s, 2) + " s, " + act.name;
+    }
+    return line + "\n";
+}
+
+std::string limits_lines(const FlightPlan& plan) {
+    planner::Extremes most;
+    double highest_m = 0.0;
+    std::optional<double> fence_m;
+    for (const ActCertificate& act : plan.certificate.acts) {
+        const planner::Extremes& e = act.extremes;
+        most.speed_horizontal_mps = std::max(most.speed_horizontal_mps, e.speed_horizontal_mps);
+        most.speed_up_mps = std::max(most.speed_up_mps, e.speed_up_mps);
+        most.speed_down_mps = std::max(most.speed_down_mps, e.speed_down_mps);
+        most.acceleration_mps2 = std::max(most.acceleration_mps2, e.acceleration_mps2);
+        most.jerk_mps3 = std::max(most.jerk_mps3, e.jerk_mps3);
+        highest_m = std::max(highest_m, act.altitude_max_m);
+        if (act.geofence_margin_m) fence_m = std::min(fence_m.value_or(*act.geofence_margin_m), *act.geofence_margin_m);
+    }
+    const Limits& l = plan.limits;
+    const auto of = [](double value, double limit) { return decimals(value, 2) + " of " + decimals(limit, 2); };
+    return "speeds         horizontal " + of(most.speed_horizontal_mps, l.speed_horizontal_mps) + ", up " +
+           of(most.speed_up_mps, l.speed_up_mps) + ", down " + of(most.speed_down_mps, l.speed_down_mps) + " m/s\n" +
+           "acceleration   " + of(most.acceleration_mps2, l.acceleration_mps2) + " m/s², jerk " +
+           of(most.jerk_mps3, l.jerk_mps3) + " m/s³\n" + "altitude       up to " + of(highest_m, l.ceiling_m) + " m" +
+           (fence_m ? ", " + decimals(*fence_m, 1) + " m inside the geofence" : std::string()) + "\n";
+}
+
+std::string summary(const FlightPlan& plan, const exporter::ExportedShow& shown, const std::filesystem::path& out) {
+    std::ostringstream text;
+    text << plan.name << ": " << plan.drones() << " drones, " << plan.keyframes.size() << " keyframes, "
+         << decimals(seconds_from_ms(plan.duration_ms()), 1) << " s\n";
+    text << (shown.certified ? "certified      every act holds every limit in continuous time\n"
+                             : "NOT CERTIFIED  do not fly; see certificate.json\n");
+    text << separation_line(plan) << limits_lines(plan);
+    std::string written, skipped;
+    for (const auto& format : shown.formats) {
+        if (format.skipped.empty()) {
+            written += " " + format.name;
+        } else {
+            skipped += "left out       " + format.name + ": " + format.skipped + "\n";
+        }
+    }
+    text << "formats       " << written << "\n" << skipped;
+    text << "show hash      " << shown.show_hash << "\n";
+    text << "written to     " << out.string() << "\n";
+    for (const auto& format : shown.formats) {
+        if (format.name == "preview" && format.skipped.empty()) {
+            text << "look at        " << (out / "preview.html").string() << "  (any browser, no network needed)\n";
+        }
+    }
+    return text.str();
+}
+
+}  // namespace
+
+int run_plan(const PlanCommand& command, const Session& session) {
+    const auto out = command.out.empty() ? std::filesystem::path("out") / command.mission.stem() : command.out;
+    auto mission = planner::read_mission(command.mission);
+    if (!mission) return report_error(mission.error(), session);
+    auto plan = planner::plan(*mission, {command.best_effort}, session.run);
+    if (!plan) return report_error(plan.error(), session);
+    auto shown = exporter::export_show(*plan, out, command.formats, command.best_effort, session.run);
+    if (!shown) return report_error(shown.error(), session);
+    if (session.json) {
+        std::cout << plan_answer(*plan, *shown, out);
+    } else if (!session.quiet) {
+        std::cout << summary(*plan, *shown, out);
+    }
+    return shown->certified ? kDone : kCannotBeFlown;
+}
+
+}  // namespace aerogram::ground

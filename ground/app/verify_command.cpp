@@ -1,0 +1,63 @@
+#include <iomanip>
+#include <iostream>
+#include <sstream>
+
+#include "export/verify_show.hpp"
+#include "ground/app/answers.hpp"
+#include "ground/app/commands.hpp"
+#include "ground/app/exit_status.hpp"
+#include "ground/app/words.hpp"
+
+namespace aerogram::ground {
+namespace {
+
+using exporter::Finding;
+using exporter::Judgement;
+
+std::string finding_line(const Finding& finding) {
+    std::ostringstream line;
+    line << "    " << (finding.held ? "ok      " : "BROKEN  ") << std::left << std::setw(26) << finding.rule
+         << " worst " << decimals(finding.worst, 3) << ", limit " << decimals(finding.limit, 3);
+    if (finding.allowance > 0.0) line << " + " << decimals(finding.allowance, 3) << " for the format's rounding";
+    if (!finding.drones.empty()) line << ", " << drones_in_words(finding.drones);
+    if (finding.time_s) line << " at " << decimals(*finding.time_s, 2) << " s";
+    return line.str() + "\n";
+}
+
+std::string judgement_text(const Judgement& judgement) {
+    std::string text = "  " + judgement.format + ": " + (judgement.held() ? "holds" : "BROKEN") + " (limits from " +
+                       judgement.limits_from + ")\n";
+    if (!judgement.separation_claimed) text += "    untimed waypoints: no separation is claimed\n";
+    for (const Finding& finding : judgement.findings) text += finding_line(finding);
+    for (const std::string& problem : judgement.problems) text += "    BROKEN  " + problem + "\n";
+    return text;
+}
+
+}  // namespace
+
+int run_verify(const VerifyCommand& command, const Session& session) {
+    std::vector<std::pair<std::filesystem::path, exporter::Verified>> all;
+    bool held = true;
+    for (const auto& path : command.paths) {
+        auto verified = exporter::verify_path(path, session.run);
+        if (!verified) return report_error(verified.error(), session);
+        held = held && verified->held();
+        all.emplace_back(path, std::move(*verified));
+    }
+    if (session.json) {
+        std::cout << verify_answer(all);
+    } else if (!session.quiet) {
+        for (const auto& [path, verified] : all) {
+            std::cout << path.string() << ": " << (verified.held() ? "verified\n" : "NOT VERIFIED\n");
+            for (const std::string& problem : verified.problems) std::cout << "  BROKEN  " << problem << "\n";
+            for (const Judgement& judgement : verified.shows) std::cout << judgement_text(judgement);
+        }
+    } else {
+        for (const auto& [path, verified] : all) {
+            for (const std::string& problem : verified.problems) session.console.error(problem);
+        }
+    }
+    return held ? kDone : kCannotBeFlown;
+}
+
+}  // namespace aerogram::ground
