@@ -30,8 +30,8 @@ struct Format {
     std::string_view description;  ///< one line, for help
     std::string_view timing;       ///< "exact", "linear", "none": stated in the manifest
     /// Writes the format's files under `folder`; returns their relative paths in a fixed order.
-    Result<std::vector<std::string>> (*write)(const planner::FlightPlan&, const Seal&, const std::filesystem::path& folder,
-                                              const Run&);
+    Result<std::vector<std::string>> (*write)(const planner::FlightPlan&, const Seal&,
+                                              const std::filesystem::path& folder, const Run&);
     /// Reads a whole show back from all of the format's files of one folder (usually one file).
     Result<RecordedShow> (*read)(std::span<const FileBytes> files);
     /// True when a file of this name and beginning is likely of this format.

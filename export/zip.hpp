@@ -18,8 +18,8 @@ struct UnzipLimits {
     std::size_t total_bytes = std::size_t{4} << 30;
     double ratio = 400.0;  ///< unpacked over packed, of the whole archive above 1 MiB: beyond is a zip bomb
 };
-/// Entries in archive order. Errors: invalid_input for damaged archives, CRC mismatches, absolute or "../" names, duplicate
-/// names, encryption, and anything beyond the limits.
+/// Entries in archive order. Errors: invalid_input for damaged archives, CRC mismatches, absolute or "../" names,
+/// duplicate names, encryption, and anything beyond the limits.
 Result<std::vector<FileBytes>> unzip_bytes(std::string_view archive, const UnzipLimits& limits = {});
 
 }  // namespace aerogram::exporter

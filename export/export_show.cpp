@@ -1,0 +1,242 @@
+#include "export/export_show.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <optional>
+
+#include "export/certificate_json.hpp"
+#include "export/files.hpp"
+#include "export/manifest_json.hpp"
+#include "export/program.hpp"
+#include "export/sha256.hpp"
+#include "export/show_hash.hpp"
+#include "export/trajectories_bin.hpp"
+#include "geo/units.hpp"
+
+namespace aerogram::exporter {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A format on its way into the folder.
+struct Job {
+    const Format* format = nullptr;
+    ExportedFormat exported;
+    std::vector<ManifestFile> files;  ///< path, bytes and hash as they are on disk
+    Rounding rounding;
+    std::optional<Error> error;
+};
+
+Error invalid(std::string message) {
+    return {ErrorCode::invalid_input, std::move(message)};
+}
+
+std::string known_names() {
+    std::string names;
+    for (const Format& format : formats()) names += (names.empty() ? "" : ", ") + std::string(format.name);
+    return names;
+}
+
+/// The formats to write, in registry order; unsuited ones are kept with the reason unless they were asked for by name.
+Result<std::vector<Job>> choose(const planner::FlightPlan& plan, std::span<const std::string> names) {
+    for (const std::string& name : names) {
+        if (find_format(name) == nullptr)
+            return invalid("no format is named \"" + name + "\"; there are: " + known_names());
+    }
+    std::vector<Job> jobs;
+    for (const Format& format : formats()) {
+        const bool asked = std::ranges::find(names, format.name) != names.end();
+        if (!asked && !names.empty()) continue;
+        Job job;
+        job.format = &format;
+        job.exported.name = format.name;
+        job.exported.skipped = format.unsuited(plan);
+        if (asked && !job.exported.skipped.empty()) {
+            return invalid("this show cannot leave as " + job.exported.name + ": " + job.exported.skipped);
+        }
+        jobs.push_back(std::move(job));
+    }
+    return jobs;
+}
+
+void write_format(Job& job, const planner::FlightPlan& plan, const Seal& seal, const fs::path& folder, const Run& run) {
+    if (!job.exported.skipped.empty() || run.stopped()) return;
+    Result<std::vector<std::string>> written = job.format->write(plan, seal, folder, run);
+    if (!written) {
+        job.error = written.error();
+        return;
+    }
+    job.exported.files = std::move(*written);
+}
+
+/// What the file says of itself must be what was written.
+std::string wrong_identity(const RecordedShow& show, const planner::FlightPlan& plan, const Seal& seal) {
+    if (show.show_hash && *show.show_hash != seal.show_hash) return "holds another show hash";
+    if (show.certified && *show.certified != seal.certified) return "holds another certified mark";
+    if (show.drones.size() != plan.drones()) {
+        return "holds " + std::to_string(show.drones.size()) + " drones of " + std::to_string(plan.drones());
+    }
+    for (std::size_t i = 0; i < show.drones.size(); ++i) {
+        if (show.drones[i].name != drone_name(i + 1, plan.drones())) return "names a drone " + show.drones[i].name;
+    }
+    return {};
+}
+
+JudgeAgainst judge_against(const planner::FlightPlan& plan) {
+    JudgeAgainst against;
+    against.limits = plan.limits;
+    against.airspace = plan.airspace;
+    against.origin = plan.origin;
+    against.endurance_s = plan.endurance_s;
+    against.limits_from = kManifestName;
+    return against;
+}
+
+/// Reads a format's files from disk, notes their hashes, and judges what they say.
+Status check_format(Job& job, const planner::FlightPlan& plan, const Seal& seal, const fs::path& folder,
+                    const Run& run) {
+    if (!job.exported.skipped.empty() || run.stopped()) return Done{};
+    std::vector<FileBytes> files;
+    job.files.clear();
+    for (const std::string& path : job.exported.files) {
+        Result<std::string> bytes = read_file(folder / path);
+        if (!bytes) return bytes.error();
+        job.files.push_back({path, job.exported.name, bytes->size(), sha256_hex(*bytes), std::nullopt, std::nullopt});
+        files.push_back({path, std::move(*bytes)});
+    }
+    const Result<RecordedShow> show = job.format->read(files);
+    if (!show) return Error{ErrorCode::io, "what was written cannot be read back: " + show.error().message};
+    const std::string wrong = wrong_identity(*show, plan, seal);
+    if (!wrong.empty()) return Error{ErrorCode::io, "what was written as " + job.exported.name + " " + wrong};
+    job.rounding = show->rounding;
+    Result<Judgement> judgement = judge(*show, judge_against(plan), run);
+    if (!judgement) return judgement.error();
+    job.exported.judgement = std::move(*judgement);
+    for (ManifestFile& file : job.files) {
+        const bool claimed = job.exported.judgement.separation_claimed;
+        file.timing = claimed ? std::string(job.format->timing) : "none: separation not claimed";
+        if (claimed && plan.drones() > 1) file.min_separation_m = job.exported.judgement.min_separation_m;
+    }
+    return Done{};
+}
+
+std::optional<Error> first_error(const std::vector<Job>& jobs, const Run& run) {
+    if (run.stopped()) return stopped_error();
+    for (const Job& job : jobs) {
+        if (job.error) return job.error;
+    }
+    return std::nullopt;
+}
+
+/// Writes and checks all formats, several at a time; their order in the result is fixed.
+std::optional<Error> write_and_check(std::vector<Job>& jobs, const planner::FlightPlan& plan, const Seal& seal,
+                                     const fs::path& folder, const Run& run) {
+    const Run inner{run.stop, {}, jobs.size() > 1 ? 1U : run.threads};
+    parallel_for(jobs.size(), run, "writing", [&](std::size_t i) { write_format(jobs[i], plan, seal, folder, inner); });
+    if (auto error = first_error(jobs, run)) return error;
+    parallel_for(jobs.size(), run, "checking", [&](std::size_t i) {
+        const Status checked = check_format(jobs[i], plan, seal, folder, inner);
+        if (!checked) jobs[i].error = checked.error();
+    });
+    return first_error(jobs, run);
+}
+
+std::string shown(double value) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.4g", value);
+    return text.data();
+}
+
+std::string describe(const std::string& format, const Finding& finding) {
+    std::string text = format + ": " + finding.rule + " " + shown(finding.worst) + ", limit " + shown(finding.limit);
+    if (!finding.drones.empty()) text += finding.drones.size() == 1 ? ", drone" : ", drones";
+    for (const std::size_t drone : finding.drones) text += " " + std::to_string(drone);
+    if (finding.time_s) text += ", at " + shown(*finding.time_s) + " s";
+    return text;
+}
+
+/// One line for everything that does not hold in the written files; empty: all is well.
+std::string complaints(const std::vector<Job>& jobs) {
+    std::string text;
+    const auto add = [&](const std::string& line) { text += (text.empty() ? "" : "\n") + line; };
+    for (const Job& job : jobs) {
+        if (!job.exported.skipped.empty() || job.exported.judgement.held()) continue;
+        for (const Finding& finding : job.exported.judgement.findings) {
+            if (!finding.held) add(describe(job.exported.name, finding));
+        }
+        for (const std::string& problem : job.exported.judgement.problems) add(job.exported.name + ": " + problem);
+    }
+    return text;
+}
+
+Manifest manifest_of(const std::vector<Job>& jobs, const planner::FlightPlan& plan, const Seal& seal,
+                     const std::string& certificate) {
+    Manifest m;
+    m.program = kProgramName;
+    m.version = kProgramVersion;
+    m.show_name = plan.name;
+    m.show_hash = seal.show_hash;
+    m.certified = seal.certified;
+    m.duration_s = seconds_from_ms(plan.duration_ms());
+    m.origin = plan.origin;
+    m.limits = plan.limits;
+    m.endurance_s = plan.endurance_s;
+    m.airspace = plan.airspace;
+    for (const Job& job : jobs) {
+        m.formats.push_back({job.exported.name, job.exported.skipped, job.rounding});
+        m.files.insert(m.files.end(), job.files.begin(), job.files.end());
+    }
+    m.files.push_back({std::string(kCertificateName), "certificate", certificate.size(), sha256_hex(certificate),
+                       std::nullopt, std::nullopt});
+    for (std::size_t i = 0; i < plan.drones(); ++i) {
+        m.drones.push_back({drone_name(i + 1, plan.drones()), plan.pads_m[i]});
+    }
+    return m;
+}
+
+/// Certificate and manifest, the manifest last; then the swap.
+Status seal_folder(StagedFolder& folder, const std::vector<Job>& jobs, const planner::FlightPlan& plan,
+                   const Seal& seal, const Run& run) {
+    run.report("sealing", 0.0);
+    const std::string certificate = certificate_json(plan, seal.show_hash, seal.certified);
+    Status done = write_file(folder.path() / kCertificateName, certificate);
+    if (!done) return done;
+    done = write_file(folder.path() / kManifestName, manifest_json(manifest_of(jobs, plan, seal, certificate)));
+    if (!done) return done;
+    if (run.stopped()) return stopped_error();
+    done = folder.commit();
+    if (done) run.report("sealing", 1.0);
+    return done;
+}
+
+}  // namespace
+
+Result<ExportedShow> export_show(const planner::FlightPlan& plan, const fs::path& destination,
+                                 std::span<const std::string> format_names, bool best_effort, const Run& run) {
+    const std::string unsuited = trajectories_unsuited(plan);
+    if (!unsuited.empty()) return invalid("this show cannot be exported: " + unsuited);
+    Result<std::vector<Job>> jobs = choose(plan, format_names);
+    if (!jobs) return jobs.error();
+    Seal seal{show_hash(plan), plan.certificate.certified()};
+    if (!seal.certified && !best_effort) return Error{ErrorCode::infeasible, "the plan is not certified"};
+    Result<StagedFolder> folder = StagedFolder::beside(destination);
+    if (!folder) return folder.error();
+
+    if (const auto error = write_and_check(*jobs, plan, seal, folder->path(), run)) return *error;
+    const std::string wrong = complaints(*jobs);
+    if (!wrong.empty() && !best_effort) {
+        return Error{ErrorCode::infeasible, "the written files break limits that the plan holds:\n" + wrong};
+    }
+    if (!wrong.empty() && seal.certified) {  // the files must say so: write them again
+        seal.certified = false;
+        if (const auto error = write_and_check(*jobs, plan, seal, folder->path(), run)) return *error;
+    }
+    const Status sealed = seal_folder(*folder, *jobs, plan, seal, run);
+    if (!sealed) return sealed.error();
+    ExportedShow result{seal.show_hash, seal.certified, {}};
+    for (Job& job : *jobs) result.formats.push_back(std::move(job.exported));
+    return result;
+}
+
+}  // namespace aerogram::exporter
