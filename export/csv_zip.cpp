@@ -1,0 +1,113 @@
+#include "export/csv_zip.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "export/csv_zip_reader.hpp"
+#include "export/decimal.hpp"
+#include "export/files.hpp"
+#include "export/skybrush_frame.hpp"
+#include "export/zip.hpp"
+#include "export/zip_peek.hpp"
+#include "geo/units.hpp"
+
+namespace aerogram::exporter {
+namespace {
+
+constexpr const char* kFile = "csv.zip";
+constexpr double kRowBytes = 40.0;
+constexpr double kLargestArchive = 4.0e9;  ///< unpacked; what our own reader accepts (UnzipLimits)
+
+double largest_acceleration(const planner::FlightPlan& plan) {
+    double largest = plan.limits.acceleration_mps2;
+    for (const planner::ActCertificate& act : plan.certificate.acts)
+        largest = std::max(largest, act.extremes.acceleration_mps2);
+    return largest;
+}
+
+void append_row(std::string& out, Millis time_ms, const planner::DroneState& state) {
+    const Vec3 p = to_skybrush(state.motion.position_m);
+    const Rgb8 c = quantised(state.color);
+    append_units(out, time_ms, 0);
+    for (const double coordinate : {p.x, p.y, p.z}) {
+        out += ',';
+        append_fixed(out, coordinate, 3);
+    }
+    for (const std::uint8_t component : {c.r, c.g, c.b}) {
+        out += ',';
+        append_units(out, component, 0);
+    }
+    out += '\n';
+}
+
+std::string csv_of(const planner::FlightPlan& plan, DroneId drone, const std::vector<Millis>& times) {
+    std::string out = "Time [msec],x [m],y [m],z [m],Red,Green,Blue\n";
+    out.reserve(times.size() * static_cast<std::size_t>(kRowBytes));
+    for (const Millis t : times) append_row(out, t, planner::sample(plan, drone, seconds_from_ms(t)));
+    return out;
+}
+
+std::string unsuited(const planner::FlightPlan& plan) {
+    const auto step_ms = csv_row_step_ms(plan);
+    if (!step_ms)
+        return "export_margin_m leaves no room for millimetres and straight lines between rows; 0.01 would do for most "
+               "shows";
+    const double rows = static_cast<double>(plan.duration_ms() / *step_ms + 2) * static_cast<double>(plan.drones());
+    if (rows * kRowBytes > kLargestArchive)
+        return "about " + std::to_string(std::llround(rows * kRowBytes / 1e9)) +
+               " GB of text; 4 GB is the most we read back";
+    return {};
+}
+
+Result<std::vector<std::string>> write(const planner::FlightPlan& plan, const Seal&,
+                                       const std::filesystem::path& folder, const Run& run) {
+    if (std::string why = unsuited(plan); !why.empty()) return Error{ErrorCode::invalid_input, "csv: " + why};
+    const std::vector<Millis> times = csv_row_times(plan.duration_ms(), *csv_row_step_ms(plan));
+    std::vector<FileBytes> entries(plan.drones());
+    parallel_for(plan.drones(), run, "csv", [&](std::size_t i) {
+        entries[i] = {drone_name(i + 1, plan.drones()) + ".csv", csv_of(plan, DroneId(i), times)};
+    });
+    if (run.stopped()) return stopped_error();
+    const auto archive = zip_bytes(entries);
+    if (!archive) return archive.error();
+    if (const Status written = write_file(folder / kFile, *archive); !written) return written.error();
+    return std::vector<std::string>{kFile};
+}
+
+bool recognises(std::string_view path, std::string_view first_bytes) {
+    const auto entry = first_zip_entry(first_bytes);
+    return entry && (entry->ends_with(".csv") || (path.ends_with(kFile) && *entry != "show.json"));
+}
+
+constexpr Format kCsv{"csv",        "Skybrush CSV in a zip: a row of time, place and colour every 250 ms or less",
+                      "linear",     write,
+                      read_csv_zip, recognises,
+                      unsuited};
+
+}  // namespace
+
+std::optional<Millis> csv_row_step_ms(const planner::FlightPlan& plan) {
+    const double allowed_m = std::min(plan.limits.export_margin_m, kCsvPairCost_m) - std::sqrt(3.0) * 0.001;
+    const double acceleration_mps2 = largest_acceleration(plan);
+    for (const Millis step_ms : {250, 200, 125, 100, 50, 40, 25, 20, 10}) {
+        const double dt_s = seconds_from_ms(step_ms);
+        if (acceleration_mps2 * dt_s * dt_s / 4.0 <= allowed_m) return step_ms;
+    }
+    return std::nullopt;
+}
+
+std::vector<Millis> csv_row_times(Millis duration_ms, Millis step_ms) {
+    AEROGRAM_REQUIRE(duration_ms > 0 && step_ms > 0, duration_ms, step_ms);
+    std::vector<Millis> times;
+    for (Millis t = 0; t < duration_ms; t += step_ms) times.push_back(t);
+    const Millis last_ms = duration_ms - times.back();
+    if (2 * last_ms < step_ms && times.size() > 1) times.back() = duration_ms - (step_ms + last_ms + 1) / 2;
+    times.push_back(duration_ms);
+    return times;
+}
+
+const Format& csv_format() {
+    return kCsv;
+}
+
+}  // namespace aerogram::exporter

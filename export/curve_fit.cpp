@@ -1,0 +1,152 @@
+#include "export/curve_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geo/units.hpp"
+
+namespace aerogram::exporter {
+namespace {
+
+using planner::Act, planner::Kinematics;
+using Cubic = std::array<Vec3, 4>;
+
+constexpr double kStill_m = 1e-9;  ///< a drone whose control points stay this close stands
+
+Vec3 blossom(const Cubic& c, double a, double b, double d) {
+    const auto lerp = [](const Vec3& p, const Vec3& q, double t) { return p + t * (q - p); };
+    const Vec3 p0 = lerp(c[0], c[1], a), p1 = lerp(c[1], c[2], a), p2 = lerp(c[2], c[3], a);
+    return lerp(lerp(p0, p1, b), lerp(p1, p2, b), d);
+}
+
+/// The part of a cubic between parameters a and b, as a cubic of its own.
+Cubic part(const Cubic& c, double a, double b) {
+    return {blossom(c, a, a, a), blossom(c, a, a, b), blossom(c, a, b, b), blossom(c, b, b, b)};
+}
+
+Cubic hermite(const Act& act, DroneId drone, double from_s, double to_s) {
+    const Kinematics a = planner::kinematics(act, drone, from_s), b = planner::kinematics(act, drone, to_s);
+    const double third_s = (to_s - from_s) / 3.0;
+    return {a.position_m, a.position_m + third_s * a.velocity_mps, b.position_m - third_s * b.velocity_mps,
+            b.position_m};
+}
+
+/// Acceleration is linear on a cubic: largest at an end.
+double largest_acceleration(const Cubic& c, double duration_s) {
+    const double factor = 6.0 / (duration_s * duration_s);
+    return factor * std::max(glm::length(c[0] - 2.0 * c[1] + c[2]), glm::length(c[1] - 2.0 * c[2] + c[3]));
+}
+
+bool stands(const planner::Motion& motion, DroneId drone) {
+    if (std::holds_alternative<planner::Hold>(motion)) return true;
+    const Vec3 first = planner::control_point(motion, 0, drone.value);
+    for (std::size_t row = 1; row < planner::interval_count(motion) + 3; ++row)
+        if (glm::length(planner::control_point(motion, row, drone.value) - first) > kStill_m) return false;
+    return true;
+}
+
+/// Bounds the difference of the act and its fit on one stretch where each is a single cubic, and adds it to `error`.
+void widen(FitError& error, const Cubic& exact, const Cubic& fit, double duration_s) {
+    Cubic difference;
+    for (std::size_t i = 0; i < 4; ++i) difference[i] = fit[i] - exact[i];
+    for (const Vec3& d : difference) error.position_m = std::max(error.position_m, glm::length(d));
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double speed_mps = 3.0 * glm::length(difference[i + 1] - difference[i]) / duration_s;
+        error.speed_mps = std::max(error.speed_mps, speed_mps);
+    }
+}
+
+FitError measured(const Act& act, DroneId drone, const std::vector<Millis>& bounds) {
+    FitError error;
+    const std::size_t intervals = planner::interval_count(act.motion);
+    const double h = planner::knot_step_s(act);
+    double exact_peak = 0.0, fit_peak = 0.0;
+    for (std::size_t m = 0; m < intervals; ++m)
+        exact_peak = std::max(exact_peak, largest_acceleration(planner::bezier(act.motion, m, drone.value), h));
+    std::size_t m = 0;
+    for (std::size_t j = 0; j + 1 < bounds.size(); ++j) {
+        const double from_s = seconds_from_ms(bounds[j]), to_s = seconds_from_ms(bounds[j + 1]),
+                     length_s = to_s - from_s;
+        const Cubic fit = hermite(act, drone, from_s, to_s);
+        fit_peak = std::max(fit_peak, largest_acceleration(fit, length_s));
+        for (double at_s = from_s; at_s < to_s; ++m) {
+            const double knot_s = static_cast<double>(m) * h;
+            const bool last = m + 1 == intervals || static_cast<double>(m + 1) * h >= to_s;
+            const double end_s = last ? to_s : static_cast<double>(m + 1) * h;
+            const Cubic exact = planner::bezier(act.motion, m, drone.value);
+            if (end_s - at_s > 1e-9)
+                widen(error, part(exact, (at_s - knot_s) / h, (end_s - knot_s) / h),
+                      part(fit, (at_s - from_s) / length_s, (end_s - from_s) / length_s), end_s - at_s);
+            at_s = end_s;
+            if (last) break;
+        }
+    }
+    error.acceleration_mps2 = std::max(0.0, fit_peak - exact_peak);
+    return error;
+}
+
+std::vector<Millis> boundaries(Millis duration_ms, Millis pieces) {
+    std::vector<Millis> bounds;
+    for (Millis j = 0; j <= pieces; ++j) bounds.push_back((2 * j * duration_ms + pieces) / (2 * pieces));
+    return bounds;
+}
+
+std::vector<std::vector<Millis>> all_choices(const Act& act) {
+    const Millis most = std::max<Millis>(1, act.duration_ms / kShortestPieceMs);
+    std::vector<Millis> counts{most};
+    for (Millis n = 1; n < most; n *= 2) {
+        counts.push_back(n);
+        if (n > 1 && n + n / 2 < most) counts.push_back(n + n / 2);
+    }
+    const Millis knots = static_cast<Millis>(planner::interval_count(act.motion));
+    if (knots < most) counts.push_back(knots);
+    std::ranges::sort(counts);
+    const auto repeated = std::ranges::unique(counts);
+    counts.erase(repeated.begin(), repeated.end());
+    std::vector<std::vector<Millis>> choices;
+    for (const Millis n : counts) choices.push_back(boundaries(act.duration_ms, n));
+    return choices;
+}
+
+/// The same act flown by one drone over one metre.
+Act unit_flight(const Act& act, const planner::Straight& straight) {
+    Act unit{act.name, act.role, act.timing, 0, act.duration_ms, {}};
+    unit.motion = planner::Straight{{Vec3{}}, {Vec3{1.0, 0.0, 0.0}}, straight.profile};
+    return unit;
+}
+
+}  // namespace
+
+ActFitter::ActFitter(const Act& act) : act_(act), choices_(all_choices(act)) {
+    const auto* straight = std::get_if<planner::Straight>(&act.motion);
+    if (straight == nullptr) return;
+    const Act unit = unit_flight(act, *straight);
+    for (const auto& bounds : choices_) unit_errors_.push_back(measured(unit, DroneId(0), bounds));
+}
+
+FitError ActFitter::error_of(DroneId drone, std::size_t choice) const {
+    if (unit_errors_.empty()) return measured(act_, drone, choices_[choice]);
+    const auto& straight = std::get<planner::Straight>(act_.motion);
+    const double length_m = glm::length(straight.to_m[drone.value] - straight.from_m[drone.value]);
+    const FitError& unit = unit_errors_[choice];
+    return {unit.position_m * length_m, unit.speed_mps * length_m, unit.acceleration_mps2 * length_m};
+}
+
+Fitted ActFitter::fit(DroneId drone) const {
+    Fitted result;
+    if (stands(act_.motion, drone)) {
+        const Vec3 place = planner::control_point(act_.motion, 0, drone.value);
+        result.pieces.push_back({act_.start_ms, act_.duration_ms, true, {place, place, place, place}});
+        return result;
+    }
+    std::size_t choice = 0;
+    result.error = error_of(drone, choice);
+    while (!result.error.within(kFitAim) && choice + 1 < choices_.size()) result.error = error_of(drone, ++choice);
+    const std::vector<Millis>& bounds = choices_[choice];
+    for (std::size_t j = 0; j + 1 < bounds.size(); ++j)
+        result.pieces.push_back({act_.start_ms + bounds[j], bounds[j + 1] - bounds[j], false,
+                                 hermite(act_, drone, seconds_from_ms(bounds[j]), seconds_from_ms(bounds[j + 1]))});
+    return result;
+}
+
+}  // namespace aerogram::exporter

@@ -1,0 +1,41 @@
+#pragma once
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "export/format.hpp"
+#include "export/json_document.hpp"
+
+namespace aerogram::exporter {
+
+/// The .json entries of a .skyc, parsed when asked for, with {"$ref": "./other.json#/pointer"} followed from entry to
+/// entry.
+class SkycArchive {
+  public:
+    static constexpr int kMostHops = 16;
+
+    /// Errors: invalid_input for a damaged archive or one without show.json.
+    static Result<SkycArchive> open(const FileBytes& file);
+
+    /// The root of an entry; a missing or broken one becomes the problem.
+    [[nodiscard]] JsonNode document(const std::string& entry);
+    /// What a node stands for: itself, or where its $ref leads, at most kMostHops further (a cycle becomes the
+    /// problem). Paths are relative to the entry that holds the reference.
+    [[nodiscard]] JsonNode resolved(JsonNode node);
+    [[nodiscard]] JsonProblem& problem() { return *problem_; }
+
+  private:
+    SkycArchive() = default;
+    [[nodiscard]] const JsonDocument* parsed(const std::string& entry);
+    [[nodiscard]] JsonNode target(const JsonNode& holder, const std::string& reference);
+
+    std::string name_;
+    std::map<std::string, std::string, std::less<>> texts_;
+    std::map<std::string, JsonDocument, std::less<>> documents_;
+    std::unique_ptr<JsonProblem> problem_;   ///< nodes point at it: must not move
+    std::unique_ptr<JsonDocument> nothing_;  ///< stands in where a document is missing
+};
+
+}  // namespace aerogram::exporter

@@ -1,0 +1,90 @@
+#include "export/skyc_trajectory.hpp"
+
+#include <sstream>
+
+#include "export/decimal.hpp"
+#include "export/skybrush_frame.hpp"
+
+namespace aerogram::exporter {
+namespace {
+
+/// The text of one trajectory, point by point.
+class TrajectoryText {
+  public:
+    TrajectoryText(const Vec3& start_m) {
+        text_ = R"({"version":1,"points":[[0,)";
+        point(start_m);
+        text_ += ",[]]";
+    }
+
+    void add(const FittedPiece& piece) {
+        text_ += ",[";
+        append_seconds(piece.start_ms + piece.duration_ms);
+        text_ += ',';
+        point(piece.controls_m[3]);
+        text_ += ",[";
+        if (!piece.stands) {
+            point(piece.controls_m[1]);
+            text_ += ',';
+            point(piece.controls_m[2]);
+        }
+        text_ += "]]";
+    }
+
+    std::string finished(Millis landing_ms) && {
+        text_ += R"(],"takeoffTime":0,"landingTime":)";
+        append_seconds(landing_ms);
+        text_ += "}\n";
+        return std::move(text_);
+    }
+
+  private:
+    void append_seconds(Millis time_ms) { append_units(text_, time_ms, 3); }
+
+    void point(const Vec3& show_m) {
+        const Vec3 p = to_skybrush(show_m);
+        text_ += '[';
+        append_fixed(text_, p.x, 3);
+        text_ += ',';
+        append_fixed(text_, p.y, 3);
+        text_ += ',';
+        append_fixed(text_, p.z, 3);
+        text_ += ']';
+    }
+
+    std::string text_;
+};
+
+std::string misfit_text(std::size_t drone, const planner::Act& act, const FitError& error) {
+    std::ostringstream text;
+    text << "skyc: drone " << drone + 1 << " in act \"" << act.name << "\": pieces of " << kShortestPieceMs
+         << " ms miss the plan by " << error.position_m << " m, " << error.speed_mps << " m/s, "
+         << error.acceleration_mps2 << " m/s²; at most " << kFitBound.position_m << " m, " << kFitBound.speed_mps
+         << " m/s, " << kFitBound.acceleration_mps2 << " m/s² would do: a longer duration helps";
+    return text.str();
+}
+
+}  // namespace
+
+Result<std::vector<std::string>> skyc_trajectories(const planner::FlightPlan& plan, const Run& run) {
+    std::vector<ActFitter> fitters;
+    for (const planner::Act& act : plan.acts) fitters.emplace_back(act);
+    std::vector<std::string> texts(plan.drones()), misfits(plan.drones());
+    parallel_for(plan.drones(), run, "skyc", [&](std::size_t i) {
+        const Vec3 start_m = planner::sample(plan, DroneId(i), 0.0).motion.position_m;
+        TrajectoryText text(start_m);
+        for (std::size_t a = 0; a < fitters.size(); ++a) {
+            const Fitted fitted = fitters[a].fit(DroneId(i));
+            if (misfits[i].empty() && !fitted.error.within(kFitBound))
+                misfits[i] = misfit_text(i, plan.acts[a], fitted.error);
+            for (const FittedPiece& piece : fitted.pieces) text.add(piece);
+        }
+        texts[i] = std::move(text).finished(plan.duration_ms());
+    });
+    if (run.stopped()) return stopped_error();
+    for (const std::string& misfit : misfits)
+        if (!misfit.empty()) return Error{ErrorCode::infeasible, misfit};
+    return texts;
+}
+
+}  // namespace aerogram::exporter
