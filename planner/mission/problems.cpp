@@ -51,12 +51,13 @@ std::filesystem::path Problems::resolved(const std::string& path) const {
 std::string_view nearest_word(std::string_view word, const std::vector<std::string_view>& known) {
     if (word.size() > 40) return {};
     std::string_view best;
-    std::size_t least = std::max<std::size_t>(2, word.size() / 2) + 1;
+    std::size_t least = word.size() + 1;
     for (const std::string_view candidate : known) {
         // A part of a compound name ("hold" for "hold_s", "speed" for "speed_up_mps") is as near as one slip.
         const bool part = word.size() >= 3 && candidate.starts_with(word);
         const std::size_t distance = part ? 1 : edit_distance(word, candidate);
-        if (distance < least && (part || distance < std::max(word.size(), candidate.size()))) {
+        const std::size_t typo = std::max<std::size_t>(1, (std::max(word.size(), candidate.size()) + 1) / 3);
+        if (distance < least && distance <= typo) {
             least = distance;
             best = candidate;
         }

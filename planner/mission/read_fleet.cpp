@@ -82,6 +82,7 @@ Points read_pads(TableReader& fleet, std::size_t drones) {
     const bool grid = pads->has("rows") || pads->has("columns") || pads->has("spacing_m") || pads->has("center_m");
     Points out;
     if (listed && grid) {
+        pads->know({"rows", "columns", "spacing_m", "center_m"});
         pads->bad("csv",
                   "must not stand beside rows, columns, spacing_m or center_m: one or the other says where pads are");
     } else {

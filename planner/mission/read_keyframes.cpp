@@ -48,6 +48,8 @@ void read_parts(TableReader& in, Keyframe& keyframe, const Mission& mission) {
     keyframe.rotate_rad = {radians(rotate_deg.x), radians(rotate_deg.y), radians(rotate_deg.z)};
     const std::optional<Rgb> color = read_color(in);
     std::vector<TableReader> tables = in.tables("part");
+    const auto* listed = std::get_if<TomlArray>(&in.find("part")->data);
+    if (listed && listed->empty()) in.bad("part", "must be at least one [[keyframe.part]]");
     std::vector<CountWish> wishes;
     for (TableReader& table : tables) {
         PartWish wish = read_part(table, mission, true);
@@ -131,11 +133,9 @@ void check_order(std::vector<TableReader>& tables, const std::vector<Keyframe>& 
 
 void read_keyframes(TableReader& root, Mission& mission) {
     std::vector<TableReader> tables = root.tables("keyframe");
-    if (!root.has("keyframe")) {
-        root.need("keyframe", "write at least one [[keyframe]] with a name and a text, csv or shape");
-    } else if (tables.empty() && std::holds_alternative<TomlArray>(root.find("keyframe")->data)) {
-        if (std::get<TomlArray>(root.find("keyframe")->data).empty())
-            root.bad("keyframe", "must be at least one [[keyframe]]");
+    if (root.need("keyframe", "write at least one [[keyframe]] with a name and a text, csv or shape")) {
+        const auto* listed = std::get_if<TomlArray>(&root.find("keyframe")->data);
+        if (listed && listed->empty()) root.bad("keyframe", "must be at least one [[keyframe]]");
     }
     for (TableReader& table : tables) mission.keyframes.push_back(read_keyframe(table, mission));
     check_order(tables, mission.keyframes);

@@ -179,7 +179,7 @@ PartWish read_part(TableReader& in, const Mission& mission, bool is_part) {
     if (!is_part) return wish;
     const auto drones = in.integer("drones", 1, 100000);
     if (drones) wish.drones = static_cast<std::size_t>(*drones);
-    wish.share = in.number("share", more_than(0.0, 1.0));
+    wish.share = in.number("share", {0.0, 1.0, true});
     if (in.has("drones") && in.has("share")) in.bad("share", "stands beside drones; must be one of the two");
     part.group = in.text("group").value_or("");
     in.finish();

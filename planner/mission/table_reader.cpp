@@ -12,10 +12,11 @@ std::optional<double> finite_number(const TomlValue& value) {
     return std::nullopt;
 }
 
-std::string must_be(const Range& range, std::string_view noun) {
-    const bool low = std::isfinite(range.low);
-    const bool high = std::isfinite(range.high);
-    std::string text = "must be" + std::string(noun);
+std::string must_be(const Range& range, std::optional<double> value) {
+    const bool exceeds = value && *value > range.high;
+    const bool low = std::isfinite(range.low) && !(range.one_sided && exceeds);
+    const bool high = std::isfinite(range.high) && (!range.one_sided || exceeds);
+    std::string text = value ? "must be" : "must be a finite number";
     if (low && high && !range.above) return text + " from " + shown(range.low) + " to " + shown(range.high);
     if (low) text += (range.above ? " > " : " >= ") + shown(range.low);
     if (high) text += (low ? " and <= " : " <= ") + shown(range.high);
@@ -90,7 +91,7 @@ std::optional<double> TableReader::number(std::string_view key, const Range& ran
     if (!value) return std::nullopt;
     const auto number = finite_number(*value);
     if (number && inside(range, *number)) return number;
-    bad(key, must_be(range, number ? "" : " a finite number"));
+    bad(key, must_be(range, number));
     return std::nullopt;
 }
 

@@ -19,13 +19,14 @@ struct Range {
     double low = -std::numeric_limits<double>::infinity();
     double high = std::numeric_limits<double>::infinity();
     bool above = false;
+    bool one_sided = false;  ///< the upper bound only keeps out nonsense: messages name it only to who exceeds it
 };
 inline constexpr Range kAny{};
 constexpr Range at_least(double low, double high = kAny.high) {
-    return {low, high, false};
+    return {low, high, false, true};
 }
 constexpr Range more_than(double low, double high = kAny.high) {
-    return {low, high, true};
+    return {low, high, true, true};
 }
 
 /// A word of the schema and what it means; `later` words are refused as "not in this version".
@@ -95,8 +96,8 @@ class TableReader {
 
 /// The number (integer or float) in a value, when it is one and finite.
 [[nodiscard]] std::optional<double> finite_number(const TomlValue& value);
-/// "must be >= 0" and the like.
-[[nodiscard]] std::string must_be(const Range& range, std::string_view noun = "");
+/// "must be >= 0" and the like. @param value  the number that is refused; absent: it is not even a finite number.
+[[nodiscard]] std::string must_be(const Range& range, std::optional<double> value);
 [[nodiscard]] bool inside(const Range& range, double value);
 /// `"a", "b" or "c"`.
 [[nodiscard]] std::string one_of(const std::vector<std::string_view>& words);

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <charconv>
+#include <cmath>
 
 namespace aerogram::planner {
 
@@ -38,8 +39,12 @@ struct Show {
 }  // namespace
 
 std::string shown(double value) {
-    std::array<char, 32> buffer{};
-    const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
+    std::array<char, 64> buffer{};
+    const double size = std::abs(value);
+    const bool plain = value == 0.0 || (size >= 1e-5 && size < 1e15);  // else with an exponent, or inf, nan
+    char* const last = buffer.data() + buffer.size();
+    const auto end = plain ? std::to_chars(buffer.data(), last, value, std::chars_format::fixed).ptr
+                           : std::to_chars(buffer.data(), last, value).ptr;
     return {buffer.data(), end};
 }
 
