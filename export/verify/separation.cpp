@@ -13,14 +13,15 @@ namespace aerogram::exporter {
 namespace {
 
 constexpr double kLongestSlab_s = 16.0;
+constexpr double kMostParts = 1e5;
 constexpr double kShortestSlab_s = 0.02;
 constexpr double kStretchesADrone = 6.0;
-constexpr double kResolved_m = 1e-5;  ///< lower bound and attained distance differ by at most this at the minimum
 constexpr double kRoundoff_m = 1e-9;  ///< of all arithmetic here, for coordinates within 1e5 m
 constexpr int kHalvings = 60;
 
 struct Best {
     double lower_m = 0.0;  ///< starts at the distance beyond which nothing is of interest
+    double resolved_m = 0.0;
     double attained_m = std::numeric_limits<double>::infinity();
     std::uint32_t first = 0, second = 0;
     double time_s = 0.0;
@@ -59,7 +60,7 @@ void bound_difference(const Bezier& difference, double begin_s, double end_s, Pa
         best.attain(glm::length(value(difference, share)), begin_s + share * (end_s - begin_s), pair.first,
                     pair.second);
     }
-    if (halvings == 0 || lower >= best.attained_m - kResolved_m) {
+    if (halvings == 0 || lower >= best.attained_m - best.resolved_m) {
         best.lower_m = lower;
         return;
     }
@@ -127,8 +128,8 @@ struct Search {
 
 }  // namespace
 
-Result<VerifiedSeparation> verify_separation(const RecordedShow& show, double downwash, double beyond_m,
-                                             const Run& run) {
+Result<VerifiedSeparation> verify_separation(const RecordedShow& show, double downwash, double beyond_m, const Run& run,
+                                             const SeparationSearch& search) {
     if (const Status sound = well_formed(show); !sound) return sound.error();
     if (!(downwash >= 1.0) || !(beyond_m > 0.0) || !std::isfinite(beyond_m) || !std::isfinite(downwash)) {
         return Error{ErrorCode::invalid_input, "separation: downwash must be >= 1 and the distance looked at > 0"};
@@ -136,16 +137,19 @@ Result<VerifiedSeparation> verify_separation(const RecordedShow& show, double do
     VerifiedSeparation result{beyond_m, std::numeric_limits<double>::infinity(), 0, 0, 0.0};
     if (show.drones.size() < 2 || !show.timed) return result;
     const Timelines shows = timelines(show.drones, downwash);
-    const double span_s = shows.end_s - shows.begin_s;
-    const auto parts = static_cast<std::size_t>(std::ceil(span_s / kLongestSlab_s));
+    const double begin_s = std::max(shows.begin_s, search.begin_s), finish_s = std::min(shows.end_s, search.end_s);
+    if (!(finish_s > begin_s)) return result;
+    const double span_s = finish_s - begin_s;
+    const auto parts = static_cast<std::size_t>(std::ceil(std::min(span_s / kLongestSlab_s, kMostParts)));
     std::vector<Best> found(parts);
     parallel_for(parts, run, "verifying separation", [&](std::size_t part) {
         const auto at = [&](std::size_t k) {
-            return shows.begin_s + span_s * (static_cast<double>(k) / static_cast<double>(parts));
+            return begin_s + span_s * (static_cast<double>(k) / static_cast<double>(parts));
         };
-        Search search{shows, run, 0.5 * beyond_m, {.lower_m = beyond_m}, {}, {}, {}};
-        search.search(at(part), part + 1 == parts ? shows.end_s : at(part + 1));
-        found[part] = search.best;
+        Search part_search{shows, run, 0.5 * beyond_m, {.lower_m = beyond_m, .resolved_m = search.resolved_m}, {},
+                           {},    {}};
+        part_search.search(at(part), part + 1 == parts ? finish_s : at(part + 1));
+        found[part] = part_search.best;
     });
     if (run.stopped()) return stopped_error();
     for (const Best& best : found) {

@@ -1,0 +1,91 @@
+#include "export/verify/judge.hpp"
+
+#include <algorithm>
+
+#include "export/verify/rules.hpp"
+#include "export/verify/waypoint_legs.hpp"
+
+namespace aerogram::exporter {
+namespace {
+
+constexpr double kSag_m = 0.02;  ///< a level leg of 1 km is a straight line, that much lower in its middle
+
+std::string where_limits_come_from(const RecordedShow& show, const JudgeAgainst& against) {
+    if (show.limits) return "the file";
+    return against.limits ? against.limits_from : "preset standard";
+}
+
+Rules rules_for(const RecordedShow& show, const JudgeAgainst& against) {
+    Rules rules;
+    rules.limits = show.limits ? *show.limits : against.limits.value_or(Limits{});
+    rules.airspace = show.airspace ? *show.airspace : against.airspace.value_or(geo::Airspace{});
+    if (const auto& origin = show.origin ? show.origin : against.origin) rules.frame.emplace(*origin);
+    rules.endurance_s = show.endurance_s ? show.endurance_s : against.endurance_s;
+    rules.rounding = show.rounding;
+    return rules;
+}
+
+void append(std::vector<Finding>& all, std::vector<Finding> more) {
+    for (Finding& finding : more) all.push_back(std::move(finding));
+}
+
+Status judge_separation(const RecordedShow& show, const Rules& rules, const JudgeAgainst& against, const Run& run,
+                        Judgement& judgement) {
+    const double limit = rules.limits.min_separation_m;
+    const double beyond = std::max(2.0 * limit, 1.01 * against.claimed_separation_m.value_or(0.0));
+    auto found = verify_separation(show, rules.limits.downwash, beyond, run);
+    if (found && found->lower_bound_m < limit && found->attained_m >= limit) {  // too close to the limit to tell
+        found = verify_separation(show, rules.limits.downwash, beyond, run, {.resolved_m = 0.5 * kNumeric});
+    }
+    if (!found) return found.error();
+    judgement.min_separation_m = found->lower_bound_m;
+    judgement.closest_m = found->attained_m;
+    Finding finding{"separation", limit, found->lower_bound_m, 0.0, {}, {}, found->lower_bound_m >= limit - kNumeric};
+    if (found->attained_m <= beyond) {
+        finding.drones = {std::min(found->first, found->second) + 1, std::max(found->first, found->second) + 1};
+        finding.time_s = found->time_s;
+    }
+    if (show.drones.size() > 1) judgement.findings.push_back(std::move(finding));
+    return Done{};
+}
+
+/// Places only: times and speeds mean nothing.
+Result<Judgement> judge_waypoints(const RecordedShow& show, Rules rules, const Run& run, Judgement judgement) {
+    auto legs = legs_as_pieces(show, rules);
+    if (!legs) return legs.error();
+    rules.rounding.fit_m += kSag_m;
+    append(judgement.findings, altitude_findings(*legs, rules, run));
+    append(judgement.findings, airspace_findings(*legs, rules, run));
+    append(judgement.findings, ground_findings(*legs, rules));
+    for (Finding& finding : judgement.findings) finding.time_s.reset();
+    judgement.problems = track_problems(*legs);
+    judgement.separation_claimed = false;
+    if (run.stopped()) return stopped_error();
+    return judgement;
+}
+
+}  // namespace
+
+bool Judgement::held() const {
+    return problems.empty() && std::ranges::all_of(findings, &Finding::held);
+}
+
+Result<Judgement> judge(const RecordedShow& show, const JudgeAgainst& against, const Run& run) {
+    if (show.drones.empty()) return Error{ErrorCode::invalid_input, "the show has no drones"};
+    Judgement judgement;
+    judgement.format = show.format;
+    judgement.limits_from = where_limits_come_from(show, against);
+    const Rules rules = rules_for(show, against);
+    if (!show.timed) return judge_waypoints(show, rules, run, std::move(judgement));
+    if (const Status sound = well_formed(show); !sound) return sound.error();
+    if (const Status done = judge_separation(show, rules, against, run, judgement); !done) return done.error();
+    append(judgement.findings, motion_findings(show, rules, run));
+    append(judgement.findings, altitude_findings(show, rules, run));
+    append(judgement.findings, airspace_findings(show, rules, run));
+    append(judgement.findings, ground_findings(show, rules));
+    judgement.problems = track_problems(show);
+    if (run.stopped()) return stopped_error();
+    return judgement;
+}
+
+}  // namespace aerogram::exporter
