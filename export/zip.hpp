@@ -9,6 +9,7 @@
 namespace aerogram::exporter {
 
 /// A ZIP archive (deflate) of the entries in order, with a fixed date: same entries, same bytes.
+/// Errors: invalid_input when there are none.
 Result<std::string> zip_bytes(std::span<const FileBytes> entries);
 
 /// What a reader of untrusted archives may spend.

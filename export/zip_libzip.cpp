@@ -1,8 +1,7 @@
 #include <zip.h>
 
-#include <limits>
 #include <memory>
-#include <set>
+#include <utility>
 
 #include "export/zip.hpp"
 
@@ -99,7 +98,6 @@ Result<std::vector<Listed>> list_entries(zip_t* archive, std::size_t packed_byte
         return damaged(std::to_string(count) + " entries; at most " + std::to_string(limits.entries) + " are read");
     }
     std::vector<Listed> entries;
-    std::set<std::string> names;
     std::size_t total = 0;
     for (zip_uint64_t i = 0; i < static_cast<zip_uint64_t>(count); ++i) {
         zip_stat_t stat{};
@@ -110,7 +108,6 @@ Result<std::vector<Listed>> list_entries(zip_t* archive, std::size_t packed_byte
         const std::string name = stat.name;
         const std::string bad = bad_name(name);
         if (!bad.empty()) return damaged(bad);
-        if (!names.insert(name).second) return damaged("two entries are named \"" + name + "\"");
         if (stat.encryption_method != ZIP_EM_NONE) return damaged("entry \"" + name + "\" is encrypted");
         if (stat.size > limits.entry_bytes || stat.size > limits.total_bytes - total) {
             return damaged("entry \"" + name + "\" is too large (" + std::to_string(stat.size) + " bytes)");
@@ -143,6 +140,7 @@ Result<std::string> unpack(zip_t* archive, const Listed& entry) {
 }  // namespace
 
 Result<std::string> zip_bytes(std::span<const FileBytes> entries) {
+    if (entries.empty()) return damaged("an archive needs entries");
     ZipError error;
     const Source source(zip_source_buffer_create(nullptr, 0, 0, &error.error));
     if (!source) return zip_failure(&error.error);
@@ -157,10 +155,12 @@ Result<std::string> zip_bytes(std::span<const FileBytes> entries) {
 }
 
 Result<std::vector<FileBytes>> unzip_bytes(std::string_view archive_bytes, const UnzipLimits& limits) {
+    if (archive_bytes.empty()) return damaged("an empty file is no archive");
     ZipError error;
     const Source source(zip_source_buffer_create(archive_bytes.data(), archive_bytes.size(), 0, &error.error));
     if (!source) return zip_failure(&error.error);
     const Archive archive = open_archive(source, ZIP_RDONLY | ZIP_CHECKCONS, error);
+    if (!archive && zip_error_code_zip(&error.error) == ZIP_ER_EXISTS) return damaged("two entries have the same name");
     if (!archive) return damaged(std::string("no sound archive: ") + zip_error_strerror(&error.error));
     const auto entries = list_entries(archive.get(), archive_bytes.size(), limits);
     if (!entries) return entries.error();
