@@ -82,8 +82,8 @@ std::string preview_page(const planner::FlightPlan& plan, const Seal& seal) {
     std::vector<std::uint8_t> bytes(show.begin(), show.end());
     std::string page;
     const std::string_view rest = filled(page, viewer(), "@@TITLE@@", html_escaped(plan.name));
-    page += filled(page, rest, "@@SHOW@@", base64_encoded(bytes));
-    return page;
+    const std::string_view tail = filled(page, rest, "@@SHOW@@", base64_encoded(bytes));
+    return page.append(tail);
 }
 
 Result<RecordedShow> read_preview(std::string_view page) {
