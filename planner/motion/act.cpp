@@ -13,6 +13,8 @@ template <class... Visitors>
 struct Overloaded : Visitors... {
     using Visitors::operator()...;
 };
+template <class... Visitors>
+Overloaded(Visitors...) -> Overloaded<Visitors...>;  // clang-tidy 14 does not deduce aggregates
 
 /// Weights of four consecutive rows at share u of their knot interval: position, velocity · h, acceleration · h².
 struct Basis {
