@@ -16,8 +16,9 @@ using dense::Op;
 using Matching = std::vector<std::size_t>;  // source column -> target column
 
 constexpr double kScoreSteps = 1073741824.0;  // 2^30
-// Where two spaces are square to one another Procrustes leaves the turn open: this much of "stay" decides it.
-constexpr double kStay = 1e-6;
+// Where parts of two spaces are nearly square to one another (a singular value below kOpen) Procrustes leaves their
+// turn open or to rounding: this much of "stay" decides it.
+constexpr double kOpen = 1e-4, kStay = 1e-6;
 constexpr double kZeroProduct = 1e-9;
 
 std::int64_t in_steps(double score) {
@@ -92,8 +93,11 @@ void turn_spaces_onto(Matrix& basis, const std::vector<Eigenspace>& spaces, cons
             set_column_block(theirs, k, column_block(other, partner[space.first + k], partner[space.first + k] + 1));
         }
         Matrix overlap = dense::product(mine, Op::transposed, theirs);
-        for (std::size_t k = 0; k < m; ++k) overlap(k, k) += kStay;
-        const dense::SingularValues svd = dense::singular_values(std::move(overlap));
+        dense::SingularValues svd = dense::singular_values(overlap);
+        if (svd.values.back() < kOpen) {
+            for (std::size_t k = 0; k < m; ++k) overlap(k, k) += kStay;
+            svd = dense::singular_values(std::move(overlap));
+        }
         set_column_block(basis, space.first, dense::product(mine, Op::plain, dense::product(svd.u, Op::plain, svd.vt)));
     }
 }
