@@ -15,7 +15,8 @@ namespace aerogram::exporter {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr std::size_t kFlushOneByOne = 256;  // above: one flush of the whole file system is faster
+
+constexpr int kAttempts = 1000;
 
 /// ".show.aerogram-": what staging folders of the destination "show" begin with; the process id and a number follow.
 std::string staging_prefix(const fs::path& destination) {
@@ -83,28 +84,6 @@ bool flush(const fs::path& path) {
     return fd.valid() && ::fsync(fd.get()) == 0;
 }
 
-/// Files first, then the folders that name them.
-Status flush_tree(const fs::path& folder, int folder_fd) {
-    std::vector<fs::path> files, folders{folder};
-    std::error_code failure;
-    for (fs::recursive_directory_iterator entry(folder, failure), end; !failure && entry != end;
-         entry.increment(failure)) {
-        (entry->is_directory() ? folders : files).push_back(entry->path());
-    }
-    if (failure) return Error{ErrorCode::io, folder.string() + ": " + failure.message()};
-    if (files.size() > kFlushOneByOne) {
-        if (::syncfs(folder_fd) != 0) return io_error(folder, "cannot be flushed to disk");
-        return Done{};
-    }
-    for (const fs::path& file : files) {
-        if (!flush(file)) return io_error(file, "cannot be flushed to disk");
-    }
-    for (auto f = folders.rbegin(); f != folders.rend(); ++f) {
-        if (!flush(*f)) return io_error(*f, "cannot be flushed to disk");
-    }
-    return Done{};
-}
-
 int rename_flagged(const fs::path& from, const fs::path& to, unsigned flags) {
     return ::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), flags);
 }
@@ -136,7 +115,7 @@ Result<StagedFolder> StagedFolder::beside(const fs::path& destination) {
         return Error{ErrorCode::io, target->parent_path().string() + ": cannot be created: " + failure.message()};
     remove_leftovers(*target);
 
-    for (int number = 1;; ++number) {
+    for (int number = 1; number <= kAttempts; ++number) {
         const fs::path staging = target->parent_path() /
                                  (staging_prefix(*target) + std::to_string(::getpid()) + "-" + std::to_string(number));
         if (::mkdir(staging.c_str(), 0777) != 0) {
@@ -144,15 +123,18 @@ Result<StagedFolder> StagedFolder::beside(const fs::path& destination) {
             return io_error(staging, "cannot be created");
         }
         Descriptor lock = locked(staging);
-        // Between mkdir and the lock another process may have taken the folder for a leftover: then take the next
-        // number.
-        if (!lock.valid() || !is_still(lock, staging)) continue;
+        // Between mkdir and the lock another process may have taken the folder for a leftover.
+        if (!lock.valid() || !is_still(lock, staging)) {
+            ::rmdir(staging.c_str());
+            continue;
+        }
         StagedFolder folder;
         folder.staging_ = staging;
         folder.destination_ = *target;
         folder.lock_ = lock.release();
         return folder;
     }
+    return Error{ErrorCode::io, target->parent_path().string() + ": no folder could be created and locked there"};
 }
 
 StagedFolder::StagedFolder(StagedFolder&& other) noexcept
@@ -183,8 +165,8 @@ void StagedFolder::discard() noexcept {
 
 Status StagedFolder::commit() {
     AEROGRAM_REQUIRE(!staging_.empty());
-    const Status flushed = flush_tree(staging_, lock_);
-    if (!flushed) return flushed;
+    // One flush of the file system instead of an fsync a file: 20 ms against 2 s for 300 files.
+    if (::syncfs(lock_) != 0) return io_error(staging_, "cannot be flushed to disk");
     const Status usable = check_destination(destination_);
     if (!usable) return usable;
     const Status swapped = swap_in(staging_, destination_);

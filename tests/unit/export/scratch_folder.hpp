@@ -10,10 +10,10 @@ namespace aerogram::exporter::fixed {
 /// An empty folder for one test, removed with all it holds.
 class ScratchFolder {
   public:
-    ScratchFolder() {
+    explicit ScratchFolder(const std::filesystem::path& base = std::filesystem::temp_directory_path()) {
         const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-        path_ = std::filesystem::temp_directory_path() / ("aerogram-" + std::string(test->test_suite_name()) + "-" +
-                                                          test->name() + "-" + std::to_string(::getpid()));
+        path_ = base / ("aerogram-" + std::string(test->test_suite_name()) + "-" + test->name() + "-" +
+                        std::to_string(::getpid()));
         std::filesystem::remove_all(path_);
         std::filesystem::create_directories(path_);
     }
