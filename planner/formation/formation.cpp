@@ -34,12 +34,12 @@ struct PlacedPart {
     std::size_t first_slot = 0;
 };
 
-/// `value` with two decimals, rounded down so that it never looks like the limit it fails.
+/// `value` with two decimals, rounded down so that it does not look like the limit it fails.
 std::string floored(double value) {
     std::ostringstream text;
     text.setf(std::ios::fixed);
     text.precision(2);
-    text << std::floor(value * 100.0) / 100.0;
+    text << std::floor(value * 100.0 + 1e-6) / 100.0;
     return text.str();
 }
 

@@ -4,6 +4,8 @@
 #include <limits>
 #include <queue>
 
+#include "planner/formation/edge_placing.hpp"
+
 namespace aerogram::planner {
 namespace {
 
@@ -24,7 +26,7 @@ std::vector<bool> occupied_stations(const std::vector<Station>& stations, const 
             }
             taken[next] = true;
             --left;
-            for (std::size_t i = 0; i < stations.size() && !all; ++i) {
+            for (std::size_t i = 0; i < stations.size(); ++i) {
                 distance[i] = std::min(distance[i], glm::distance(stations[i].at * scale, stations[next].at * scale));
             }
         }
@@ -33,14 +35,8 @@ std::vector<bool> occupied_stations(const std::vector<Station>& stations, const 
     return taken;
 }
 
-double length_of(const std::vector<Vec2>& path) {
-    double length = 0.0;
-    for (std::size_t i = 0; i + 1 < path.size(); ++i) length += glm::distance(path[i], path[i + 1]);
-    return length;
-}
-
-/// How many points go between the stations of each edge: always the next one to the widest gap, ties to the earlier
-/// edge.
+/// How many points go between the stations of each edge: the next one always goes where the gaps are then the
+/// widest, which makes the smallest gap as wide as can be; ties go to the earlier edge.
 std::vector<std::size_t> points_inside(const std::vector<double>& lengths, std::size_t count) {
     struct Gap {
         double width;
@@ -50,31 +46,15 @@ std::vector<std::size_t> points_inside(const std::vector<double>& lengths, std::
         }
     };
     std::priority_queue<Gap> gaps;
-    for (std::size_t e = 0; e < lengths.size(); ++e) gaps.push({lengths[e], e});
+    for (std::size_t e = 0; e < lengths.size(); ++e) gaps.push({lengths[e] / 2.0, e});
     std::vector<std::size_t> inside(lengths.size(), 0);
     for (; count > 0; --count) {
         const std::size_t edge = gaps.top().edge;
         gaps.pop();
         ++inside[edge];
-        gaps.push({lengths[edge] / static_cast<double>(inside[edge] + 1), edge});
+        gaps.push({lengths[edge] / static_cast<double>(inside[edge] + 2), edge});
     }
     return inside;
-}
-
-/// Appends `count` points that divide a path equally, its ends not included.
-void divide(const std::vector<Vec2>& path, double length, std::size_t count, std::vector<Vec2>& out) {
-    std::size_t piece = 0;
-    double before = 0.0;
-    for (std::size_t k = 1; k <= count; ++k) {
-        const double target = length * static_cast<double>(k) / static_cast<double>(count + 1);
-        double step = glm::distance(path[piece], path[piece + 1]);
-        while (before + step < target && piece + 2 < path.size()) {
-            before += step;
-            ++piece;
-            step = glm::distance(path[piece], path[piece + 1]);
-        }
-        out.push_back(path[piece] + (path[piece + 1] - path[piece]) * ((target - before) / step));
-    }
 }
 
 }  // namespace
@@ -94,6 +74,10 @@ std::optional<std::vector<Vec2>> sample_strokes(const StrokeGraph& drawing, cons
     if (dots_only && stations < count) return std::nullopt;
     const std::vector<std::size_t> inside = points_inside(lengths, count - stations);
 
+    std::vector<Vec2> standing;  // so far; later lines keep clear of earlier ones
+    for (std::size_t i = 0; i < to_place.size(); ++i) {
+        if (to_place[i]) standing.push_back(drawing.stations[i].at * scale);
+    }
     std::vector<Vec2> points;
     const auto place = [&](std::size_t station) {
         if (to_place[station]) points.push_back(drawing.stations[station].at * scale);
@@ -101,7 +85,11 @@ std::optional<std::vector<Vec2>> sample_strokes(const StrokeGraph& drawing, cons
     };
     for (std::size_t e = 0; e < drawing.edges.size(); ++e) {
         place(drawing.edges[e].from);
-        divide(paths[e], lengths[e], inside[e], points);
+        if (inside[e] > 0) {
+            const std::vector<Vec2> between = points_along(paths[e], inside[e], standing);
+            points.insert(points.end(), between.begin(), between.end());
+            standing.insert(standing.end(), between.begin(), between.end());
+        }
         place(drawing.edges[e].to);
     }
     return points;
