@@ -105,6 +105,9 @@ Arrive read_arrive(TableReader& keyframe, const Mission& mission) {
     read_spectral(*in, out.spectral);
     read_flow(*in, out.flow);
     in->later("groups", "one method moves the whole fleet");
+    in->misplaced(source_keys(), "belongs to the keyframe; must stand before [keyframe.arrive]");
+    constexpr std::string_view kOfKeyframe[] = {"name", "center_m", "rotate_deg", "color", "at_s", "hold_s", "motion"};
+    in->misplaced(kOfKeyframe, "belongs to the keyframe; must stand before [keyframe.arrive]");
     in->finish();
     return out;
 }

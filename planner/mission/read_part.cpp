@@ -13,7 +13,12 @@ constexpr std::array<std::string_view, 15> kSourceKeys{"text",    "csv",    "sha
                                                        "mesh",    "sketch", "font",  "style",  "rows",
                                                        "columns", "turns",  "inner", "size_m", "depth_m"};
 
-enum class Font { stroke };
+// What size_m may look like; unknown where the source itself is wrong, so that one slip is told once.
+enum class Form { flat, solid, unknown };
+struct Sourced {
+    Source source = TextSource{};
+    Form form = Form::unknown;
+};
 
 TextSource read_text(TableReader& in) {
     TextSource out;
@@ -29,7 +34,7 @@ TextSource read_text(TableReader& in) {
     return out;
 }
 
-ShapeSource read_shape(TableReader& in) {
+Sourced read_shape(TableReader& in) {
     using enum ShapeKind;
     ShapeSource out;
     const auto kind = in.choice<ShapeKind>("shape", {{"line", line},
@@ -59,7 +64,8 @@ ShapeSource read_shape(TableReader& in) {
     const auto turns = in.number("turns", more_than(0.0, 1000.0));
     if (turns && kind && kind != helix) in.bad("turns", "only shape = \"helix\" has turns");
     out.turns = turns.value_or(out.turns);
-    return out;
+    if (!kind) return {out, Form::unknown};
+    return {out, *kind == sphere || *kind == helix ? Form::solid : Form::flat};
 }
 
 // Keys that another source would have.
@@ -76,7 +82,7 @@ void refuse_foreign_keys(TableReader& in, std::string_view source) {
     in.later("inner", "a key of shape = \"ring\"");
 }
 
-Source read_source(TableReader& in, bool is_part) {
+Sourced read_source(TableReader& in, bool is_part) {
     std::vector<std::string_view> present;
     for (const std::string_view key : kSources) {
         if (in.has(key)) present.push_back(key);
@@ -86,19 +92,20 @@ Source read_source(TableReader& in, bool is_part) {
         in.know({"font", "style", "rows", "columns", "turns", "inner", "depth_m"});
         in.problems().add(in.line(),
                           in.path() + ": no source; write one of " + now + (is_part ? "" : ", or [[keyframe.part]]s"));
-        return TextSource{};
+        return {};
     }
     if (present.size() > 1) {
         in.know({"font", "style", "rows", "columns", "turns", "inner", "depth_m"});
         in.bad(present[1], "second source beside " + std::string(present[0]) + "; must be exactly one of " + now +
                                (is_part ? "" : " (several: [[keyframe.part]]s)"));
-        return TextSource{};
+        return {};
     }
-    Source source;
+    Sourced source;
     if (present[0] == "text") {
-        source = read_text(in);
+        source = {read_text(in), Form::flat};
     } else if (present[0] == "csv") {
-        source = CsvSource{in.file("csv", "a CSV file with the header Name,x_m,y_m,z_m[,Red,Green,Blue]").value_or("")};
+        const auto file = in.file("csv", "a CSV file with the header Name,x_m,y_m,z_m[,Red,Green,Blue]");
+        source = {CsvSource{file.value_or("")}, Form::solid};
     } else if (present[0] == "shape") {
         source = read_shape(in);
     } else if (in.text(present[0])) {
@@ -108,13 +115,8 @@ Source read_source(TableReader& in, bool is_part) {
     return source;
 }
 
-bool is_flat(const Source& source) {
-    if (std::holds_alternative<TextSource>(source)) return true;
-    const auto* shape = std::get_if<ShapeSource>(&source);
-    return shape && shape->kind != ShapeKind::sphere && shape->kind != ShapeKind::helix;
-}
-
-Size read_size(TableReader& in, bool flat) {
+Size read_size(TableReader& in, Form form) {
+    const bool flat = form == Form::flat;
     Size size;
     const TomlValue* value = in.find("size_m");
     if (!value) return size;
@@ -135,7 +137,7 @@ Size read_size(TableReader& in, bool flat) {
                           "[width], [x, y, z] or { width = .., depth = .., height = .. }, each > 0 and <= 10000",
                           more_than(0.0, 10000.0));
     if (!v) return size;
-    if (!flat && v->size() == 2) {
+    if (form == Form::solid && v->size() == 2) {
         in.bad("size_m", "a solid source has three: must be [x, y, z], [width] or a table");
         return size;
     }
@@ -170,8 +172,9 @@ PartWish read_part(TableReader& in, const Mission& mission, bool is_part) {
     PartWish wish;
     Part& part = wish.part;
     part.line = in.line();
-    part.source = read_source(in, is_part);
-    part.size = read_size(in, is_flat(part.source));
+    const Sourced sourced = read_source(in, is_part);
+    part.source = sourced.source;
+    part.size = read_size(in, sourced.form);
     part.center_m = in.vec3("center_m").value_or(Vec3{});
     const Vec3 rotate_deg = in.vec3("rotate_deg").value_or(Vec3{});
     part.rotate_rad = {radians(rotate_deg.x), radians(rotate_deg.y), radians(rotate_deg.z)};
@@ -182,6 +185,8 @@ PartWish read_part(TableReader& in, const Mission& mission, bool is_part) {
     wish.share = in.number("share", {0.0, 1.0, true});
     if (in.has("drones") && in.has("share")) in.bad("share", "stands beside drones; must be one of the two");
     part.group = in.text("group").value_or("");
+    constexpr std::string_view kOfKeyframe[] = {"name", "at_s", "hold_s", "motion", "arrive"};
+    in.misplaced(kOfKeyframe, "belongs to the keyframe; must stand before its [[keyframe.part]]s");
     in.finish();
     if (part.group.empty()) return wish;
     const auto group = std::find_if(mission.groups.begin(), mission.groups.end(),

@@ -86,6 +86,12 @@ bool TableReader::later(std::string_view key, std::string_view what) {
     return true;
 }
 
+void TableReader::misplaced(std::span<const std::string_view> keys, const std::string& what) {
+    for (const TomlEntry& entry : *table_) {
+        if (std::find(keys.begin(), keys.end(), entry.key) != keys.end()) bad(entry.key, what);
+    }
+}
+
 std::optional<double> TableReader::number(std::string_view key, const Range& range) {
     const TomlValue* value = find(key);
     if (!value) return std::nullopt;

@@ -3,6 +3,7 @@
 #include <initializer_list>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -70,6 +71,8 @@ class TableReader {
     void bad(std::string_view key, const std::string& what);
     /// Refuses a key, when present, as a later version's. @returns whether it was present.
     bool later(std::string_view key, std::string_view what = {});
+    /// Refuses keys, where present, that belong to another table. @param what  e.g. "belongs to the keyframe".
+    void misplaced(std::span<const std::string_view> keys, const std::string& what);
     /// Refuses unknown keys, suggesting the nearest known one.
     void finish();
 
