@@ -244,6 +244,7 @@ std::vector<Leg> legs_of(const Mission& mission, const Route& route) {
     }
     Leg back = vertical("return", ActRole::transit, *here_m, route.lifted_m);
     back.pairwise = false;
+    back.how.profile = ProfileKind::s_curve;  // long and mostly downwards: a quarter faster than minimum jerk
     legs.push_back(std::move(back));
     legs.push_back(vertical("landing", ActRole::landing, route.lifted_m, mission.fleet.pads_m));
     return legs;

@@ -12,11 +12,13 @@ namespace {
 /// Take-off climbs this far above the minimum navigation altitude, so that neither the earth's curvature nor a file's
 /// rounding puts a sideways motion below it.
 constexpr double kClearOfFloor_m = 0.1;
+/// A relative duality gap that is rounding only.
+constexpr double kOptimalGap = 1e-12;
 
 std::string describe(const char* how, const Assignment& assignment) {
     std::ostringstream text;
     text << how;
-    if (assignment.duality_gap > 0.0) text << ", gap " << assignment.duality_gap;
+    if (assignment.duality_gap > kOptimalGap) text << ", gap " << assignment.duality_gap;
     if (assignment.pairwise) {
         text << ", no paths cross";
     } else if (assignment.crossing) {
