@@ -1,0 +1,215 @@
+#include "export/verify_agreement.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "export/verify/judge.hpp"
+
+namespace aerogram::exporter {
+namespace {
+
+constexpr double kNumeric = 1e-6;
+constexpr double kSampleEvery_s = 0.25;
+constexpr double kMostSamples = 4e6;  ///< of all drones together
+constexpr double kFewestTimes = 50.0;
+/// Waypoints of a level leg and geodetic conversions at other heights agree to this.
+constexpr double kWaypointSlack_m = 0.005;
+
+std::string shown(double value) {
+    std::array<char, 40> text{};
+    std::snprintf(text.data(), text.size(), "%.4g", value);
+    return text.data();
+}
+
+bool equal(const Vec2& a, const Vec2& b) {
+    return a.x == b.x && a.y == b.y;
+}
+bool equal(const geo::Polygon& a, const geo::Polygon& b) {
+    return std::ranges::equal(a, b, [](const Vec2& p, const Vec2& q) { return equal(p, q); });
+}
+bool equal(const geo::Cylinder& a, const geo::Cylinder& b) {
+    return equal(a.center_m, b.center_m) && a.radius_m == b.radius_m;
+}
+bool equal(const geo::Prism& a, const geo::Prism& b) {
+    return equal(a.outline_m, b.outline_m);
+}
+bool equal(const geo::Obstacle& a, const geo::Obstacle& b) {
+    if (a.name != b.name || a.base_m != b.base_m || a.height_m != b.height_m) return false;
+    if (a.shape.index() != b.shape.index()) return false;
+    return std::visit([&](const auto& shape) { return equal(shape, std::get<std::decay_t<decltype(shape)>>(b.shape)); },
+                      a.shape);
+}
+bool equal(const geo::Airspace& a, const geo::Airspace& b) {
+    const auto same = [](const auto& p, const auto& q) { return equal(p, q); };
+    return equal(a.geofence_m, b.geofence_m) && std::ranges::equal(a.audience_m, b.audience_m, same) &&
+           std::ranges::equal(a.obstacles, b.obstacles, same);
+}
+bool equal(const geo::ShowOrigin& a, const geo::ShowOrigin& b) {
+    return a.ground.latitude_deg == b.ground.latitude_deg && a.ground.longitude_deg == b.ground.longitude_deg &&
+           a.ground.height_m == b.ground.height_m && a.heading_deg == b.heading_deg &&
+           a.geoid_undulation_m == b.geoid_undulation_m;
+}
+bool equal(const Limits& a, const Limits& b) {
+    constexpr std::array kAll{&Limits::min_separation_m,
+                              &Limits::formation_spacing_m,
+                              &Limits::downwash,
+                              &Limits::export_margin_m,
+                              &Limits::speed_horizontal_mps,
+                              &Limits::speed_up_mps,
+                              &Limits::speed_down_mps,
+                              &Limits::acceleration_mps2,
+                              &Limits::jerk_mps3,
+                              &Limits::min_navigation_altitude_m,
+                              &Limits::ceiling_m};
+    return std::ranges::all_of(kAll, [&](const auto limit) { return a.*limit == b.*limit; });
+}
+bool equal(const Rounding& a, const Rounding& b) {
+    return a.position_m == b.position_m && a.fit_m == b.fit_m && a.time_s == b.time_s && a.has_speed == b.has_speed &&
+           a.has_acceleration == b.has_acceleration &&
+           (!a.has_speed || a.speed_allowance_mps == b.speed_allowance_mps) &&
+           (!a.has_acceleration || a.acceleration_allowance_mps2 == b.acceleration_allowance_mps2);
+}
+
+double space_m(const Rounding& rounding) {
+    return std::sqrt(3.0) * rounding.position_m + rounding.fit_m;
+}
+
+/// Names and pads; the first that differs.
+Problems drones_disagree(const RecordedShow& show, const Manifest& manifest) {
+    if (show.drones.size() != manifest.drones.size()) {
+        return {std::to_string(show.drones.size()) + " drones; the manifest lists " +
+                std::to_string(manifest.drones.size())};
+    }
+    const geo::ShowFrame frame(manifest.origin);
+    const double allowed_m = space_m(show.rounding) + kNumeric;
+    for (std::size_t d = 0; d < show.drones.size(); ++d) {
+        const RecordedDrone& drone = show.drones[d];
+        const ManifestDrone& listed = manifest.drones[d];
+        const std::string name = "drone " + std::to_string(d + 1);
+        if (drone.name != listed.name)
+            return {name + " is named \"" + drone.name + "\", in the manifest \"" + listed.name + "\""};
+        double off_m = drone.home_m ? glm::length(*drone.home_m - listed.pad_m) : 0.0;
+        if (drone.home) {
+            const geo::Geodetic pad = frame.to_geodetic(listed.pad_m);
+            off_m = glm::length(frame.to_show({drone.home->latitude_deg, drone.home->longitude_deg, pad.height_m}) -
+                                listed.pad_m);
+        }
+        if (off_m > allowed_m) return {name + ": home is " + shown(off_m) + " m from its pad in the manifest"};
+    }
+    return {};
+}
+
+Problems places_disagree(const RecordedShow& reference, const RecordedShow& show, const geo::ShowOrigin& origin) {
+    const geo::ShowFrame frame(origin);
+    const double allowed_m = space_m(reference.rounding) + space_m(show.rounding) + kWaypointSlack_m;
+    for (std::size_t d = 0; d < show.drones.size(); ++d) {
+        const RecordedDrone& flies = reference.drones[d];
+        const Vec3 home = flies.home_m.value_or(first_position(flies));
+        const double home_height_m = frame.to_geodetic(home).height_m;
+        for (std::size_t w = 0; w < show.drones[d].waypoints.size(); ++w) {
+            const Waypoint& waypoint = show.drones[d].waypoints[w];
+            if (waypoint.kind != Waypoint::Kind::fly_to) continue;
+            const Vec3 place = frame.to_show({waypoint.place.latitude_deg, waypoint.place.longitude_deg,
+                                              home_height_m + waypoint.altitude_above_home_m});
+            double nearest_m = glm::length(last_position(flies) - place);
+            for (const Piece& piece : flies.pieces) {
+                nearest_m = std::min(nearest_m, glm::length(flies.controls_m[piece.first_control] - place));
+            }
+            if (nearest_m <= allowed_m) continue;
+            return {"drone " + std::to_string(d + 1) + ": waypoint " + std::to_string(w + 1) + " is " +
+                    shown(nearest_m) + " m from where " + reference.format + " goes (" + shown(allowed_m) +
+                    " m may differ)"};
+        }
+    }
+    return {};
+}
+
+}  // namespace
+
+Problems disagreement_with_manifest(const RecordedShow& show, const Manifest& manifest) {
+    Problems problems = drones_disagree(show, manifest);
+    const auto require = [&](bool same, const std::string& what) {
+        if (!same) problems.push_back(what + " differs from the manifest");
+    };
+    require(!show.show_hash || *show.show_hash == manifest.show_hash, "the show hash");
+    require(!show.certified || *show.certified == manifest.certified, "the certified mark");
+    const auto format = std::ranges::find(manifest.formats, show.format, &ManifestFormat::name);
+    require(format != manifest.formats.end() && equal(format->rounding, show.rounding), "the stated rounding");
+    if (show.format != "trajectories") return problems;
+    require(show.show_hash.has_value(), "the show hash");
+    require(show.title == manifest.show_name, "the show's name");
+    require(show.limits && equal(*show.limits, manifest.limits), "a limit");
+    require(show.airspace && equal(*show.airspace, manifest.airspace), "the airspace");
+    require(show.origin && equal(*show.origin, manifest.origin), "the origin");
+    require(show.endurance_s == manifest.endurance_s, "the endurance");
+    require(show.duration_s == manifest.duration_s, "the duration");
+    return problems;
+}
+
+Problems disagreement_of_shows(const RecordedShow& reference, const RecordedShow& show, const Limits& limits,
+                               const geo::ShowOrigin& origin) {
+    if (reference.drones.size() != show.drones.size()) return {};  // said against the manifest
+    if (!show.timed) return places_disagree(reference, show, origin);
+    const auto fleet = static_cast<double>(show.drones.size());
+    const double length_s = std::max(reference.duration_s, show.duration_s);
+    const double times =
+        std::clamp(std::min(length_s / kSampleEvery_s, kMostSamples / fleet), kFewestTimes, kMostSamples);
+    const double fastest_mps =
+        std::hypot(limits.speed_horizontal_mps, std::max(limits.speed_up_mps, limits.speed_down_mps));
+    const double allowed_m = space_m(reference.rounding) + space_m(show.rounding) + kNumeric +
+                             (reference.rounding.time_s + show.rounding.time_s) * fastest_mps;
+    double worst_m = 0.0, worst_s = 0.0;
+    std::size_t worst_drone = 0;
+    for (std::size_t d = 0; d < show.drones.size(); ++d) {
+        for (double k = 0.0; k <= times; k += 1.0) {
+            const double t = length_s * (k / times);
+            const double off_m = glm::length(position_at(reference.drones[d], t) - position_at(show.drones[d], t));
+            if (off_m <= worst_m + kNumeric) continue;
+            worst_m = off_m;
+            worst_s = t;
+            worst_drone = d;
+        }
+    }
+    if (worst_m <= allowed_m) return {};
+    return {"drone " + std::to_string(worst_drone + 1) + " at " + shown(worst_s) + " s is " + shown(worst_m) +
+            " m from where " + reference.format + " has it (" + shown(allowed_m) + " m may differ)"};
+}
+
+Result<Problems> disagreement_with_certificate(const CertificateRecord& certificate, const Manifest& manifest,
+                                               const RecordedShow& trajectories, const Run& run) {
+    Problems problems;
+    const auto require = [&](bool same, const std::string& what) {
+        if (!same) problems.push_back(what + " differs from the manifest");
+    };
+    require(certificate.show_name == manifest.show_name, "the show's name");
+    require(certificate.show_hash == manifest.show_hash, "the show hash");
+    require(certificate.certified == manifest.certified, "the certified mark");
+    double clock_s = 0.0;
+    for (const CertifiedAct& act : certificate.acts) {
+        const std::string name = "act \"" + act.name + "\"";
+        if (std::abs(act.start_s - clock_s) > kNumeric)
+            problems.push_back(name + " does not start where the one before ends");
+        clock_s = act.start_s + act.duration_s;
+        if (!act.min_separation_m) continue;
+        const double claim_m = *act.min_separation_m;
+        const double beyond_m = std::max(manifest.limits.min_separation_m, 1.01 * claim_m + kNumeric);
+        const auto found = verify_separation(trajectories, manifest.limits.downwash, beyond_m, run,
+                                             {.begin_s = act.start_s, .end_s = clock_s});
+        if (!found) return found.error();
+        if (claim_m > found->attained_m + kNumeric) {
+            problems.push_back(name + " claims a separation of " + shown(claim_m) + " m; drones " +
+                               std::to_string(found->first + 1) + " and " + std::to_string(found->second + 1) +
+                               " come to " + shown(found->attained_m) + " m at " + shown(found->time_s) + " s");
+        }
+        if (certificate.certified && !act.certified)
+            problems.push_back(name + " is not certified, the certificate says it is");
+    }
+    if (std::abs(clock_s - manifest.duration_s) > kNumeric)
+        problems.push_back("the acts do not last as long as the show");
+    return problems;
+}
+
+}  // namespace aerogram::exporter
