@@ -107,6 +107,11 @@ class CheckTree(unittest.TestCase):
         self.expect('tests/a_test.cpp:1: "CGAL/Kernel.h" is not a file of ours: write the path from the root',
                     {"tests/a_test.cpp": '#include "CGAL/Kernel.h"\n'})
 
+    def test_helper_beside_a_test(self):
+        self.assertEqual(findings({"tests/unit/show.hpp": "", "tests/unit/a_test.cpp": '#include "show.hpp"\n'}), [])
+        self.expect('tests/a_test.cpp:1: "show.hpp" is not a file of ours: write the path from the root',
+                    {"tests/unit/show.hpp": "", "tests/a_test.cpp": '#include "show.hpp"\n'})
+
     def test_source_without_a_module(self):
         self.expect("ground/radio/a.cpp:1: belongs to no module of CMakeLists.txt", {"ground/radio/a.cpp": ""})
 
