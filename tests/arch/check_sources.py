@@ -82,7 +82,7 @@ def code_lines(text):
 
 
 def check_own_include(root, modules, reaches, path, header):
-    if path.startswith("tests/") and (root / path).with_name(header).is_file():
+    if path.startswith("tests/") and ((root / path).parent / header).is_file():
         return None  # a test's helper beside it
     if not (root / header).is_file():
         return f'"{header}" is not a file of ours: write the path from the root'

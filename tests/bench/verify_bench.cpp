@@ -77,5 +77,3 @@ BENCHMARK(separation_of_lines)->Args({10, 120})->Args({60, 300})->Args({300, 300
 
 }  // namespace
 }  // namespace aerogram::exporter
-
-BENCHMARK_MAIN();
