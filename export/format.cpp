@@ -3,12 +3,18 @@
 #include <algorithm>
 #include <array>
 
+#include "export/csv_zip.hpp"
+#include "export/preview_html.hpp"
+#include "export/qgc_plan.hpp"
+#include "export/skyc.hpp"
 #include "export/trajectories_bin.hpp"
+#include "export/waypoints.hpp"
 
 namespace aerogram::exporter {
 
 std::span<const Format> formats() {
-    static const std::array kFormats{trajectories_format()};
+    static const std::array kFormats{trajectories_format(), csv_format(),       skyc_format(),
+                                     qgc_plan_format(),     waypoints_format(), preview_format()};
     return kFormats;
 }
 
