@@ -26,9 +26,9 @@ struct Flow {
 /// M(t) = R2^{c2} R1^{c1+c2} R0^{c0+c1+c2} M0 (DESIGN.md 7.8), reordering and signs chained over the legs.
 /// A flow is spectral when any of its legs asks for it; details in flow_spectral.hpp, the clock in flow_clock.hpp.
 /// Time runs along the path by one smooth clock u(t) whose knots hit the keyframes.
-/// Properties: (1) keyframes are met at their knots to 1e-9 m (2) position, velocity and acceleration are continuous (a cubic
-/// B-spline); at a corner the path may turn sharply only by slowing to rest there (3) rigid motions commute (4) deterministic.
-/// Source: Takahashi et al. 2009, section 4.1, equation 5.
+/// Properties: (1) keyframes are met at their knots to 1e-9 m (2) position, velocity and acceleration are continuous (a
+/// cubic B-spline); at a corner the path may turn sharply only by slowing to rest there (3) rigid motions commute (4)
+/// deterministic. Source: Takahashi et al. 2009, section 4.1, equation 5.
 /// @param keyframes  m keyframes with the same n.  @param legs  m - 1.  @param rows_per_leg  about; >= 12.
 /// Errors: stopped.
 Result<Flow> flow_transition(std::span<const SpectralKeyframe> keyframes, std::span<const FlowLeg> legs,

@@ -25,10 +25,10 @@ struct FlowPlace {
 };
 
 /// The one clock of a flow: u(knot) = leg + share.
-/// A quintic a leg; at the ends and at corners u' = u'' = 0; at keyframes that are passed u'' = 0 and u' is the harmonic middle of
-/// the two legs' cruising speeds (the mean speed, times 3/2 for a leg with one end at rest), at most twice either mean.
-/// Properties: (1) u is keyframe number j at keyframe_knots[j] (2) u is twice continuously differentiable (3) u does not
-/// decrease: the quintic is monotone whenever its end slopes are at most twice its mean.
+/// A quintic a leg; at the ends and at corners u' = u'' = 0; at keyframes that are passed u'' = 0 and u' is the
+/// harmonic middle of the two legs' cruising speeds (the mean speed, times 3/2 for a leg with one end at rest), at most
+/// twice either mean. Properties: (1) u is keyframe number j at keyframe_knots[j] (2) u is twice continuously
+/// differentiable (3) u does not decrease: the quintic is monotone whenever its end slopes are at most twice its mean.
 class FlowClock {
   public:
     /// @param legs  keyframe_knots.size() - 1.
