@@ -34,6 +34,7 @@ const std::vector<std::pair<std::uint32_t, std::uint32_t>>& CloseBoxes::find(con
                                                                              double reach_m, double mean_extent_m) {
     entries_.clear();
     pairs_.clear();
+    if (!(reach_m > 0.0)) return pairs_;  // no gap is below 0; and boxes of standing drones would give cells of size 0
     const double cell = std::max(2.0 * (reach_m + mean_extent_m), largest_extent(boxes) / kCellsAcrossLargest);
     const Vec3 half(0.5 * reach_m);
     const auto low_cell = [&](const Box& box) { return glm::floor((box.low_m - half) / cell); };
