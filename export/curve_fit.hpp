@@ -23,8 +23,9 @@ struct FitError {
 };
 /// The fitter stops refining here.
 inline constexpr FitError kFitAim{0.004, 0.02, 0.03};
-/// Writers guarantee this, or refuse.
-inline constexpr FitError kFitBound{0.01, 0.05, 0.1};
+/// Writers guarantee this, or refuse. The acceleration is that of half-second cubics on the shortest acts (a climb of 3 m in 3 s
+/// at a jerk of 8 m/s³ is off by 0.27 m/s²).
+inline constexpr FitError kFitBound{0.01, 0.1, 0.5};
 
 struct FittedPiece {
     Millis start_ms = 0, duration_ms = 0;  ///< show time

@@ -1,6 +1,7 @@
 #include "planner/route.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <sstream>
 
 #include "planner/assignment/assignment.hpp"
@@ -28,7 +29,8 @@ std::string describe(const char* how, const Assignment& assignment) {
     return text.str();
 }
 
-/// The mission's groups, and the drones outside all of them as one more, against the keyframe's parts.
+/// The mission's groups, and the drones outside all of them as one more, against the keyframe's parts: those of one
+/// group together, each other part by itself.
 GroupMatch match_groups(const Mission& mission, const Keyframe& keyframe, const Formation& formation) {
     GroupMatch match;
     std::vector<bool> grouped(mission.fleet.drones, false);
@@ -41,14 +43,19 @@ GroupMatch match_groups(const Mission& mission, const Keyframe& keyframe, const 
         if (!grouped[d]) rest.emplace_back(d);
     }
     if (!rest.empty()) match.drones.push_back(rest);
-    match.slots.resize(keyframe.parts.size());
-    for (std::size_t s = 0; s < formation.part.size(); ++s) match.slots[formation.part[s]].emplace_back(s);
     match.wanted.resize(match.drones.size());
-    for (std::size_t g = 0; g < mission.groups.size(); ++g) {
-        for (std::size_t p = 0; p < keyframe.parts.size(); ++p) {
-            if (keyframe.parts[p].group == mission.groups[g].name) match.wanted[g] = p;
-        }
+
+    std::vector<std::size_t> set_of_part(keyframe.parts.size());
+    for (std::size_t p = 0; p < keyframe.parts.size(); ++p) {
+        const auto group = std::ranges::find(mission.groups, keyframe.parts[p].group, &Group::name);
+        std::optional<std::size_t>* wanted =
+            group == mission.groups.end() ? nullptr
+                                          : &match.wanted[static_cast<std::size_t>(group - mission.groups.begin())];
+        set_of_part[p] = wanted != nullptr && *wanted ? **wanted : match.slots.size();
+        if (set_of_part[p] == match.slots.size()) match.slots.emplace_back();
+        if (wanted != nullptr) *wanted = set_of_part[p];
     }
+    for (std::size_t s = 0; s < formation.part.size(); ++s) match.slots[set_of_part[formation.part[s]]].emplace_back(s);
     return match;
 }
 

@@ -14,11 +14,13 @@ namespace {
 using exporter::Finding;
 using exporter::Judgement;
 
+constexpr double kShownAllowance = 5e-4;  // below it prints as 0.000
+
 std::string finding_line(const Finding& finding) {
     std::ostringstream line;
     line << "    " << (finding.held ? "ok      " : "BROKEN  ") << std::left << std::setw(26) << finding.rule
          << " worst " << decimals(finding.worst, 3) << ", limit " << decimals(finding.limit, 3);
-    if (finding.allowance > 0.0) line << " + " << decimals(finding.allowance, 3) << " for the format's rounding";
+    if (finding.allowance >= kShownAllowance) line << " + " << decimals(finding.allowance, 3) << " for the format's rounding";
     if (!finding.drones.empty()) line << ", " << drones_in_words(finding.drones);
     if (finding.time_s) line << " at " << decimals(*finding.time_s, 2) << " s";
     return line.str() + "\n";

@@ -6,10 +6,11 @@ import { type Show, colorsAt, positionsAt } from './show';
 const trailSeconds = 4, trailSteps = 32, trailDrones = 2000;
 export const viewNames = ['audience', 'front', 'above', 'side', 'corner'] as const;
 
-function bounds(show: Show): THREE.Box3 {
+/** What the audience came to see: where the formations stand or are passed. */
+function formationBounds(show: Show): THREE.Box3 {
     const box = new THREE.Box3(), p = new Float32Array(3 * show.drones), at = new THREE.Vector3();
-    for (let step = 0; step <= 200; ++step) {
-        positionsAt(show, (show.duration * step) / 200, p);
+    for (const keyframe of show.keyframes) {
+        positionsAt(show, keyframe.from, p);
         for (let i = 0; i < p.length; i += 3) box.expandByPoint(at.set(p[i], p[i + 1], p[i + 2]));
     }
     return box;
@@ -103,8 +104,8 @@ export class Scene {
             blending: THREE.AdditiveBlending, depthWrite: false }));
         this.trailLines.frustumCulled = false;
         this.trailLines.visible = false;
-        this.box = bounds(show);
-        const extent = Math.max(...this.box.getSize(new THREE.Vector3()).toArray(), 20);
+        this.box = formationBounds(show);
+        const extent = Math.max(...this.box.getSize(new THREE.Vector3()).toArray(), this.box.max.z, 20);
         this.scene.add(ground(show, 2 * extent), this.trailLines, points);
         this.camera.up.set(0, 0, 1);
         this.controls = new OrbitControls(this.camera, canvas);
@@ -119,14 +120,14 @@ export class Scene {
         const reach = Math.max(size.x, size.z, 12) / Math.min(1, this.camera.aspect);
         const front = Math.min(this.box.min.y, ...Array.from({ length: this.show.drones }, (_, i) => this.show.pads[3 * i + 1]));
         const eyes = [
-            new THREE.Vector3(center.x, front - 1.35 * reach, 1.7),
-            new THREE.Vector3(center.x, this.box.min.y - 1.5 * reach, center.z),
-            new THREE.Vector3(center.x, center.y - 0.01, center.z + 1.6 * Math.max(reach, size.y)),
-            new THREE.Vector3(center.x + 1.6 * Math.max(reach, size.y), center.y, center.z),
-            new THREE.Vector3(center.x - 1.1 * reach, center.y - 1.3 * reach, center.z + 0.6 * reach),
+            new THREE.Vector3(center.x, front - 1.1 * Math.max(reach, this.box.max.z), 1.7),
+            new THREE.Vector3(center.x, this.box.min.y - 2.2 * reach, center.z),
+            new THREE.Vector3(center.x, center.y - 0.01, center.z + 2.2 * Math.max(reach, size.y)),
+            new THREE.Vector3(center.x + 2.2 * Math.max(reach, size.y), center.y, center.z),
+            new THREE.Vector3(center.x - 1.5 * reach, center.y - 1.8 * reach, center.z + 0.8 * reach),
         ];
         this.camera.position.copy(eyes[view]);
-        this.controls.target.set(center.x, center.y, view === 0 ? 0.55 * this.box.max.z : center.z);
+        this.controls.target.set(center.x, center.y, view === 0 ? 0.6 * this.box.max.z : center.z);
         this.controls.update();
     }
 
