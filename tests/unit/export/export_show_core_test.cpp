@@ -1,0 +1,192 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "export/certificate_json.hpp"
+#include "export/export_show.hpp"
+#include "export/files.hpp"
+#include "export/manifest_json.hpp"
+#include "export/sha256.hpp"
+#include "export/show_hash.hpp"
+#include "tests/unit/export/fixed_show.hpp"
+#include "tests/unit/export/scratch_folder.hpp"
+
+namespace aerogram::exporter {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+const std::vector<std::string> kExact{"trajectories"};
+
+std::map<std::string, std::string> contents(const fs::path& folder) {
+    std::map<std::string, std::string> files;
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
+        if (!entry.is_directory()) files[fs::relative(entry.path(), folder).string()] = *read_file(entry.path());
+    }
+    return files;
+}
+
+/// A show whose drones 1 and 2 meet head-on at B.
+planner::FlightPlan colliding() {
+    planner::FlightPlan plan = fixed::show();
+    for (planner::Act& act : plan.acts) {
+        if (act.name == "B") std::get<planner::Hold>(act.motion).positions_m[1] = fixed::formation_b()[0];
+    }
+    return plan;
+}
+
+TEST(DroneName, HasThreeDigitsOrAsManyAsTheFleetNeeds) {
+    EXPECT_EQ(drone_name(1, 10), "drone-001");
+    EXPECT_EQ(drone_name(42, 999), "drone-042");
+    EXPECT_EQ(drone_name(42, 1'000), "drone-0042");
+    EXPECT_EQ(drone_name(10'000, 10'000), "drone-10000");
+}
+
+TEST(Formats, AreCompleteAndNamedOnce) {
+    std::set<std::string_view> names;
+    for (const Format& format : formats()) {
+        EXPECT_TRUE(names.insert(format.name).second) << format.name;
+        EXPECT_EQ(find_format(format.name), &format);
+        EXPECT_FALSE(format.description.empty());
+        EXPECT_TRUE(format.write != nullptr && format.read != nullptr && format.recognises != nullptr &&
+                    format.unsuited != nullptr);
+    }
+    EXPECT_EQ(formats().front().name, "trajectories");
+    EXPECT_EQ(find_format("nothing"), nullptr);
+    EXPECT_EQ(recognise("notes.txt", "just words"), nullptr);
+}
+
+TEST(ExportShow, WritesEveryFormatWithItsHashes) {
+    const fixed::ScratchFolder scratch;
+    const planner::FlightPlan plan = fixed::show();
+    const auto exported = export_show(plan, scratch.path() / "show", {}, false, {});
+    ASSERT_TRUE(exported.ok()) << exported.error().message;
+    EXPECT_EQ(exported->show_hash, show_hash(plan));
+    EXPECT_TRUE(exported->certified);
+    ASSERT_EQ(exported->formats.size(), formats().size());
+
+    auto files = contents(scratch.path() / "show");
+    const auto manifest = read_manifest(files["manifest.json"]);
+    ASSERT_TRUE(manifest.ok()) << manifest.error().message;
+    EXPECT_EQ(manifest->show_hash, exported->show_hash);
+    EXPECT_TRUE(manifest->certified);
+    EXPECT_EQ(manifest->limits.min_separation_m, plan.limits.min_separation_m);
+    EXPECT_EQ(manifest->drones[2].pad_m, plan.pads_m[2]);
+    ASSERT_EQ(manifest->files.size() + 1, files.size()) << "every file but the manifest is listed";
+    for (const ManifestFile& file : manifest->files) {
+        ASSERT_TRUE(files.contains(file.path)) << file.path;
+        EXPECT_EQ(file.bytes, files[file.path].size());
+        EXPECT_EQ(file.sha256, sha256_hex(files[file.path])) << file.path;
+        EXPECT_EQ(file.timing.has_value(), file.format != "certificate");
+        if (file.min_separation_m) {
+            EXPECT_GE(*file.min_separation_m, plan.limits.min_separation_m) << file.path;
+        }
+    }
+    const auto certificate = read_certificate(files["certificate.json"]);
+    ASSERT_TRUE(certificate.ok()) << certificate.error().message;
+    EXPECT_EQ(certificate->show_hash, exported->show_hash);
+    EXPECT_TRUE(certificate->certified);
+}
+
+TEST(ExportShow, EveryFormatRecognisesItsOwnFiles) {
+    const fixed::ScratchFolder scratch;
+    const auto exported = export_show(fixed::show(), scratch.path() / "show", {}, false, {});
+    ASSERT_TRUE(exported.ok()) << exported.error().message;
+    const auto files = contents(scratch.path() / "show");
+    for (const ExportedFormat& format : exported->formats) {
+        EXPECT_EQ(format.files.empty(), !format.skipped.empty()) << format.name;
+        for (const std::string& path : format.files) {
+            const Format* recognised = recognise(path, files.at(path));
+            ASSERT_NE(recognised, nullptr) << path;
+            EXPECT_EQ(recognised->name, format.name) << path;
+        }
+    }
+}
+
+TEST(ExportShow, SameShowGivesTheSameBytesOnAnyNumberOfThreads) {
+    const fixed::ScratchFolder scratch;
+    aerogram::Run two;
+    two.threads = 2;
+    ASSERT_TRUE(export_show(fixed::show(), scratch.path() / "one", {}, false, {}).ok());
+    ASSERT_TRUE(export_show(fixed::show(), scratch.path() / "two", {}, false, two).ok());
+    EXPECT_EQ(contents(scratch.path() / "one"), contents(scratch.path() / "two"));
+}
+
+TEST(ExportShow, OnlyTheNamedFormatsAreWritten) {
+    const fixed::ScratchFolder scratch;
+    const auto exported = export_show(fixed::show(), scratch.path() / "show", kExact, false, {});
+    ASSERT_TRUE(exported.ok()) << exported.error().message;
+    ASSERT_EQ(exported->formats.size(), 1U);
+    EXPECT_EQ(contents(scratch.path() / "show").size(), 3U);
+    const std::vector<std::string> unknown{"trajectories", "skyk"};
+    const auto refused = export_show(fixed::show(), scratch.path() / "show", unknown, false, {});
+    ASSERT_FALSE(refused.ok());
+    EXPECT_EQ(refused.error().code, ErrorCode::invalid_input);
+    EXPECT_THAT(refused.error().message, HasSubstr("no format is named \"skyk\"; there are: trajectories"));
+}
+
+TEST(ExportShow, FilesThatBreakALimitAreNotKept) {
+    const fixed::ScratchFolder scratch;
+    ASSERT_TRUE(export_show(fixed::show(), scratch.path() / "show", kExact, false, {}).ok());
+    const auto before = contents(scratch.path());
+    const auto exported = export_show(colliding(), scratch.path() / "show", kExact, false, {});
+    ASSERT_FALSE(exported.ok());
+    EXPECT_EQ(exported.error().code, ErrorCode::infeasible);
+    EXPECT_THAT(exported.error().message, HasSubstr("trajectories: separation 0, limit 1.5, drones 1 2, at "));
+    EXPECT_EQ(contents(scratch.path()), before) << "the destination is as it was, and nothing lies beside it";
+}
+
+TEST(ExportShow, BestEffortMarksEveryFileAsUncertified) {
+    const fixed::ScratchFolder scratch;
+    const auto exported = export_show(colliding(), scratch.path() / "show", kExact, true, {});
+    ASSERT_TRUE(exported.ok()) << exported.error().message;
+    EXPECT_FALSE(exported->certified);
+    EXPECT_FALSE(exported->formats[0].judgement.held());
+    auto files = contents(scratch.path() / "show");
+    EXPECT_FALSE(read_manifest(files["manifest.json"])->certified);
+    EXPECT_FALSE(read_certificate(files["certificate.json"])->certified);
+    EXPECT_EQ(files["trajectories.bin"][16], '\0');
+}
+
+TEST(ExportShow, APlanThatIsNotCertifiedNeedsBestEffort) {
+    const fixed::ScratchFolder scratch;
+    planner::FlightPlan plan = fixed::show();
+    plan.certificate.violations = {"endurance"};
+    EXPECT_EQ(export_show(plan, scratch.path() / "show", kExact, false, {}).error().code, ErrorCode::infeasible);
+    const auto exported = export_show(plan, scratch.path() / "show", kExact, true, {});
+    ASSERT_TRUE(exported.ok()) << exported.error().message;
+    EXPECT_FALSE(exported->certified);
+}
+
+TEST(ExportShow, StopsWhenAsked) {
+    const fixed::ScratchFolder scratch;
+    std::stop_source source;
+    aerogram::Run run;
+    run.stop = source.get_token();
+    std::vector<std::string> stages;
+    run.progress = [&](std::string_view stage, double) {
+        stages.emplace_back(stage);
+        if (stage == "checking") source.request_stop();
+    };
+    const auto exported = export_show(fixed::show(), scratch.path() / "show", kExact, false, run);
+    ASSERT_FALSE(exported.ok());
+    EXPECT_EQ(exported.error().code, ErrorCode::stopped);
+    EXPECT_TRUE(contents(scratch.path()).empty());
+    EXPECT_EQ(stages.front(), "writing");
+    EXPECT_EQ(stages.back(), "checking");
+}
+
+TEST(ExportShow, ForeignFoldersAreKept) {
+    const fixed::ScratchFolder scratch;
+    ASSERT_TRUE(write_file(scratch.path() / "thesis/chapter-1", "irreplaceable").ok());
+    const auto exported = export_show(fixed::show(), scratch.path() / "thesis", kExact, false, {});
+    EXPECT_EQ(exported.error().code, ErrorCode::invalid_input);
+    EXPECT_EQ(contents(scratch.path()).size(), 1U);
+}
+
+}  // namespace
+}  // namespace aerogram::exporter
