@@ -150,7 +150,7 @@ Result<std::string> zip_bytes(std::span<const FileBytes> entries) {
         if (!add(archive.get(), entry)) return zip_failure(zip_get_error(archive.get()));
     }
     if (zip_close(archive.get()) != 0) return zip_failure(zip_get_error(archive.get()));
-    archive.release();  // closed
+    (void)archive.release();  // closed
     return contents(source.get());
 }
 
