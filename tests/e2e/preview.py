@@ -1,5 +1,9 @@
-"""preview.html in headless Chromium: at each formation of the-end.toml the lamps on the screen are the formation's places."""
+"""preview.html in headless Chromium: at each formation of the-end.toml the lamps on the screen are the formation's places.
+
+With AEROGRAM_PICTURE=docs/images/the-end.png it also makes the README's picture of what it saw.
+"""
 import json
+import os
 import shutil
 import subprocess
 
@@ -14,7 +18,7 @@ show = work / "show"
 planned(SOURCE / "missions/the-end.toml", show)
 acts = json.loads((show / "certificate.json").read_text())["acts"]
 holds = [act for act in acts if act["role"] == "hold"]
-assert [act["name"] for act in holds] == ["T", "H", "E", "E2", "N", "D"] or len(holds) == 6, [a["name"] for a in holds]
+assert [act["name"] for act in holds] == ["T", "H", "first E", "second E", "N", "D"], [act["name"] for act in holds]
 
 
 def screenshot(time_s, file):
@@ -26,9 +30,9 @@ def screenshot(time_s, file):
 
 
 def lamps(file):
-    """Centres of the bright blobs between header and timeline, pixels."""
-    picture = np.asarray(Image.open(file).convert("RGB")).max(axis=2).astype(float)[100:690]
-    marks, count = ndimage.label(picture > 170)
+    """Centres of the lamps (their cores are nearly white) between header and timeline, pixels."""
+    picture = np.asarray(Image.open(file).convert("RGB")).min(axis=2).astype(float)[100:690]
+    marks, count = ndimage.label(picture > 120)
     return np.array(ndimage.center_of_mass(picture, marks, range(1, count + 1)))[:, ::-1]
 
 
@@ -49,3 +53,10 @@ for act in holds:
     assert gaps.min(axis=1).max() < 6.0, f"{act['name']}: off by {gaps.min(axis=1).max():.1f} pixels"
     print(f"{act['name']}: {len(seen)} lamps within {gaps.min(axis=1).max():.1f} pixels")
 shutil.rmtree(work / "profile", ignore_errors=True)
+
+if "AEROGRAM_PICTURE" in os.environ:
+    tiles = [Image.open(work / f"{act['name']}.png").convert("RGB").crop((330, 110, 870, 690)).resize((270, 290)) for act in holds]
+    sheet = Image.new("RGB", (270 * 3 + 8, 290 * 2 + 4), (38, 52, 77))
+    for i, tile in enumerate(tiles):
+        sheet.paste(tile, (i % 3 * 274, i // 3 * 294))
+    sheet.save(os.environ["AEROGRAM_PICTURE"], optimize=True)

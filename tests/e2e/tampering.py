@@ -9,7 +9,7 @@ print("seed", seed)
 rng = random.Random(seed)
 work = fresh("tampering")
 show = work / "show"
-planned(SOURCE / "missions" / "straight.toml", show)
+planned(SOURCE / "missions" / "the-end.toml", show)
 originals = files(show)
 
 
