@@ -1,0 +1,48 @@
+// Formations: letters, a sphere, a helix and a grid. Each run checks the number of slots and their smallest spacing.
+#include <benchmark/benchmark.h>
+
+#include "planner/formation/formation.hpp"
+#include "tests/unit/planner/formation/missions.hpp"
+
+namespace aerogram::planner {
+namespace {
+
+using namespace testing;
+
+void measure(benchmark::State& state, const Source& source) {
+    const auto n = static_cast<std::size_t>(state.range(0));
+    const Mission mission = mission_of({part_of(source, n)});
+    double spacing_m = 0.0;
+    for (auto _ : state) {
+        const auto formation = build(mission);
+        if (!formation.ok() || formation->points_m.size() != n) {
+            state.SkipWithError("no formation of n slots");
+            break;
+        }
+        spacing_m = formation->smallest_spacing_m;
+        benchmark::DoNotOptimize(formation->points_m.data());
+    }
+    if (!(spacing_m >= mission.limits.formation_spacing_m - 1e-9)) state.SkipWithError("slots are too close");
+    state.counters["spacing_m"] = spacing_m;
+}
+
+void formation_of_text(benchmark::State& state) {
+    measure(state, text("HELLO"));
+}
+void formation_of_sphere(benchmark::State& state) {
+    measure(state, shape(ShapeKind::sphere));
+}
+void formation_of_helix(benchmark::State& state) {
+    measure(state, shape(ShapeKind::helix));
+}
+void formation_of_grid(benchmark::State& state) {
+    measure(state, shape(ShapeKind::grid));
+}
+
+BENCHMARK(formation_of_text)->Arg(10)->Arg(60)->Arg(300)->Unit(benchmark::kMillisecond);
+BENCHMARK(formation_of_sphere)->Arg(10)->Arg(60)->Arg(300)->Unit(benchmark::kMillisecond);
+BENCHMARK(formation_of_helix)->Arg(10)->Arg(60)->Arg(300)->Unit(benchmark::kMillisecond);
+BENCHMARK(formation_of_grid)->Arg(10)->Arg(60)->Arg(300)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace aerogram::planner
