@@ -13,14 +13,13 @@ inline constexpr double kCsvPairCost_m = 0.05;
 [[nodiscard]] std::optional<Millis> csv_row_step_ms(const planner::FlightPlan& plan);
 
 /// Row times: multiples of the step and the exact end. An end closer than half a step to its predecessor moves that one
-/// to the middle of the last two intervals, so that no interval is below half a step and rounding makes no false
-/// speeds.
+/// to the middle of the last two intervals: none is below half a step, and rounding makes no false speeds.
 [[nodiscard]] std::vector<Millis> csv_row_times(Millis duration_ms, Millis step_ms);
 
-/// Writes header `Time [msec],x [m],y [m],z [m],Red,Green,Blue`, whole milliseconds, three decimals, X front, Y left, Z
-/// up, 8-bit linear colours. Yaw, events, cues, origin, limits and the hash are lost; colours go linearly from row to
-/// row. Reads other programs' archives too: byte order mark, CRLF, header in any case, further columns, blank last
-/// line. Errors: invalid_input with archive, file and line.
+/// Writes the header `Time [msec],x [m],y [m],z [m],Red,Green,Blue`, whole milliseconds, three decimals, X front, Y
+/// left, Z up, 8-bit linear colours, linear from row to row. Yaw, events, cues, origin, limits and the hash are lost.
+/// Reads other programs' archives too: byte order mark, CRLF, header in any case, further columns, blank last lines.
+/// Errors: invalid_input with archive, file and line.
 [[nodiscard]] const Format& csv_format();
 
 }  // namespace aerogram::exporter

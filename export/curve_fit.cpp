@@ -45,44 +45,13 @@ bool stands(const planner::Motion& motion, DroneId drone) {
     return true;
 }
 
-/// Bounds the difference of the act and its fit on one stretch where each is a single cubic, and adds it to `error`.
-void widen(FitError& error, const Cubic& exact, const Cubic& fit, double duration_s) {
+/// Bounds the difference of the act and its fit on one stretch where each is a single cubic.
+void widen(double& position_m, double& speed_mps, const Cubic& exact, const Cubic& fit, double duration_s) {
     Cubic difference;
     for (std::size_t i = 0; i < 4; ++i) difference[i] = fit[i] - exact[i];
-    for (const Vec3& d : difference) error.position_m = std::max(error.position_m, glm::length(d));
-    for (std::size_t i = 0; i < 3; ++i) {
-        const double speed_mps = 3.0 * glm::length(difference[i + 1] - difference[i]) / duration_s;
-        error.speed_mps = std::max(error.speed_mps, speed_mps);
-    }
-}
-
-FitError measured(const Act& act, DroneId drone, const std::vector<Millis>& bounds) {
-    FitError error;
-    const std::size_t intervals = planner::interval_count(act.motion);
-    const double h = planner::knot_step_s(act);
-    double exact_peak = 0.0, fit_peak = 0.0;
-    for (std::size_t m = 0; m < intervals; ++m)
-        exact_peak = std::max(exact_peak, largest_acceleration(planner::bezier(act.motion, m, drone.value), h));
-    std::size_t m = 0;
-    for (std::size_t j = 0; j + 1 < bounds.size(); ++j) {
-        const double from_s = seconds_from_ms(bounds[j]), to_s = seconds_from_ms(bounds[j + 1]),
-                     length_s = to_s - from_s;
-        const Cubic fit = hermite(act, drone, from_s, to_s);
-        fit_peak = std::max(fit_peak, largest_acceleration(fit, length_s));
-        for (double at_s = from_s; at_s < to_s; ++m) {
-            const double knot_s = static_cast<double>(m) * h;
-            const bool last = m + 1 == intervals || static_cast<double>(m + 1) * h >= to_s;
-            const double end_s = last ? to_s : static_cast<double>(m + 1) * h;
-            const Cubic exact = planner::bezier(act.motion, m, drone.value);
-            if (end_s - at_s > 1e-9)
-                widen(error, part(exact, (at_s - knot_s) / h, (end_s - knot_s) / h),
-                      part(fit, (at_s - from_s) / length_s, (end_s - from_s) / length_s), end_s - at_s);
-            at_s = end_s;
-            if (last) break;
-        }
-    }
-    error.acceleration_mps2 = std::max(0.0, fit_peak - exact_peak);
-    return error;
+    for (const Vec3& d : difference) position_m = std::max(position_m, glm::length(d));
+    for (std::size_t i = 0; i < 3; ++i)
+        speed_mps = std::max(speed_mps, 3.0 * glm::length(difference[i + 1] - difference[i]) / duration_s);
 }
 
 std::vector<Millis> boundaries(Millis duration_ms, Millis pieces) {
@@ -117,19 +86,64 @@ Act unit_flight(const Act& act, const planner::Straight& straight) {
 
 }  // namespace
 
-ActFitter::ActFitter(const Act& act) : act_(act), choices_(all_choices(act)) {
+FitError fit_bound(const Limits& limits) {
+    const double millimetres_m = std::sqrt(3.0) * 0.001;  // two points, each rounded by half
+    const double position_m = std::min(kFitPosition_m, (limits.export_margin_m - millimetres_m) / 2.0);
+    return {position_m, kFitSpeed_mps, kFitAccelerationShare * limits.acceleration_mps2};
+}
+
+FitError fit_aim(const Limits& limits) {
+    const FitError bound = fit_bound(limits);
+    return {std::min(0.004, bound.position_m), 0.02, std::min(0.03, bound.acceleration_mps2)};
+}
+
+ActFitter::ActFitter(const Act& act, const Limits& limits)
+    : act_(act), aim_(fit_aim(limits)), acceleration_limit_mps2_(limits.acceleration_mps2), choices_(all_choices(act)) {
     const auto* straight = std::get_if<planner::Straight>(&act.motion);
     if (straight == nullptr) return;
     const Act unit = unit_flight(act, *straight);
-    for (const auto& bounds : choices_) unit_errors_.push_back(measured(unit, DroneId(0), bounds));
+    for (const auto& bounds : choices_) unit_misfits_.push_back(measured(unit, DroneId(0), bounds));
+}
+
+ActFitter::Misfit ActFitter::measured(const Act& act, DroneId drone, const std::vector<Millis>& bounds) {
+    Misfit result;
+    const std::size_t intervals = planner::interval_count(act.motion);
+    const double h = planner::knot_step_s(act);
+    for (std::size_t m = 0; m < intervals; ++m)
+        result.exact_peak_mps2 =
+            std::max(result.exact_peak_mps2, largest_acceleration(planner::bezier(act.motion, m, drone.value), h));
+    std::size_t m = 0;
+    for (std::size_t j = 0; j + 1 < bounds.size(); ++j) {
+        const double from_s = seconds_from_ms(bounds[j]), to_s = seconds_from_ms(bounds[j + 1]),
+                     length_s = to_s - from_s;
+        const Cubic fit = hermite(act, drone, from_s, to_s);
+        result.fit_peak_mps2 = std::max(result.fit_peak_mps2, largest_acceleration(fit, length_s));
+        for (double at_s = from_s; at_s < to_s; ++m) {
+            const double knot_s = static_cast<double>(m) * h;
+            const bool last = m + 1 == intervals || static_cast<double>(m + 1) * h >= to_s;
+            const double end_s = last ? to_s : static_cast<double>(m + 1) * h;
+            const Cubic exact = planner::bezier(act.motion, m, drone.value);
+            if (end_s - at_s > 1e-9)
+                widen(result.position_m, result.speed_mps, part(exact, (at_s - knot_s) / h, (end_s - knot_s) / h),
+                      part(fit, (at_s - from_s) / length_s, (end_s - from_s) / length_s), end_s - at_s);
+            at_s = end_s;
+            if (last) break;
+        }
+    }
+    return result;
+}
+
+FitError ActFitter::error_of(const Misfit& m) const {
+    const double allowed_mps2 = std::max(m.exact_peak_mps2, acceleration_limit_mps2_);
+    return {m.position_m, m.speed_mps, std::max(0.0, m.fit_peak_mps2 - allowed_mps2)};
 }
 
 FitError ActFitter::error_of(DroneId drone, std::size_t choice) const {
-    if (unit_errors_.empty()) return measured(act_, drone, choices_[choice]);
+    if (unit_misfits_.empty()) return error_of(measured(act_, drone, choices_[choice]));
     const auto& straight = std::get<planner::Straight>(act_.motion);
-    const double length_m = glm::length(straight.to_m[drone.value] - straight.from_m[drone.value]);
-    const FitError& unit = unit_errors_[choice];
-    return {unit.position_m * length_m, unit.speed_mps * length_m, unit.acceleration_mps2 * length_m};
+    const double l = glm::length(straight.to_m[drone.value] - straight.from_m[drone.value]);
+    const Misfit& unit = unit_misfits_[choice];
+    return error_of(Misfit{l * unit.position_m, l * unit.speed_mps, l * unit.exact_peak_mps2, l * unit.fit_peak_mps2});
 }
 
 Fitted ActFitter::fit(DroneId drone) const {
@@ -141,7 +155,7 @@ Fitted ActFitter::fit(DroneId drone) const {
     }
     std::size_t choice = 0;
     result.error = error_of(drone, choice);
-    while (!result.error.within(kFitAim) && choice + 1 < choices_.size()) result.error = error_of(drone, ++choice);
+    while (!result.error.within(aim_) && choice + 1 < choices_.size()) result.error = error_of(drone, ++choice);
     const std::vector<Millis>& bounds = choices_[choice];
     for (std::size_t j = 0; j + 1 < bounds.size(); ++j)
         result.pieces.push_back({act_.start_ms + bounds[j], bounds[j + 1] - bounds[j], false,

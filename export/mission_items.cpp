@@ -108,7 +108,7 @@ Result<std::optional<Waypoint>> waypoint_of(const MissionItem& item, const geo::
 
 Rounding mission_rounding() {
     Rounding rounding;
-    rounding.position_m = 0.0006;  // half of 1e-8 degrees of latitude, and half a millimetre
+    rounding.position_m = 0.0008;  // half of 1e-8 degrees north and east, along an axis between them
     rounding.has_speed = false;
     rounding.has_acceleration = false;
     return rounding;

@@ -50,7 +50,7 @@ struct MissionItem {
 /// range.
 Result<std::optional<Waypoint>> waypoint_of(const MissionItem& item, const geo::Geodetic& home, double home_amsl_m);
 
-/// What the waypoint formats state: eight decimals of a degree and millimetres of altitude; no times, so no speeds.
+/// What the waypoint formats state: eight decimals of a degree, millimetres of altitude; no times, so no speeds.
 [[nodiscard]] Rounding mission_rounding();
 
 }  // namespace aerogram::exporter

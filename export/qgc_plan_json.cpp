@@ -83,8 +83,7 @@ Json own_words(const planner::FlightPlan& plan, const Seal& seal, const DroneMis
             {"drone", drone.name},
             {"showHash", seal.show_hash},
             {"certified", seal.certified},
-            {"timing", "none: separation is not claimed"},
-            {"geoidUndulation", *plan.origin.geoid_undulation_m}};
+            {"timing", "none: separation is not claimed"}};
 }
 
 Result<std::vector<std::string>> write(const planner::FlightPlan& plan, const Seal& seal,

@@ -29,15 +29,15 @@ MissionItem read_item(const JsonNode& node) {
     return item;
 }
 
-RecordedDrone read_drone(const FileBytes& file, const JsonNode& root, double undulation_m) {
+RecordedDrone read_drone(const FileBytes& file, const JsonNode& root) {
     const JsonProblem& problem = root.problem();
     RecordedDrone drone;
     drone.name = stem(file.path);
     const JsonNode mission = root["mission"], home = mission["plannedHomePosition"], items = mission["items"];
     static_cast<void>(mission["firmwareType"].whole(0, 255));
     const double home_amsl_m = home.at(2).number(-kHighest_m, kHighest_m);
-    drone.home =
-        geo::Geodetic{home.at(0).number(-90.0, 90.0), home.at(1).number(-180.0, 180.0), home_amsl_m + undulation_m};
+    drone.home = geo::Geodetic{home.at(0).number(-90.0, 90.0), home.at(1).number(-180.0, 180.0), 0.0};
+    drone.home_amsl_m = home_amsl_m;
     if (items.size() > kMostItems) items.fail("must be at most " + std::to_string(kMostItems) + " items");
     for (std::size_t k = 0; k < items.size() && !problem.found(); ++k) {
         const JsonNode node = items.at(k);
@@ -59,7 +59,6 @@ struct OwnWords {
     std::string title;
     std::optional<std::string> show_hash;
     std::optional<bool> certified;
-    double undulation_m = 0.0;
     bool operator==(const OwnWords&) const = default;
 };
 
@@ -70,7 +69,6 @@ OwnWords read_own(const JsonNode& root) {
     words.title = (*own)["title"].text();
     words.show_hash = (*own)["showHash"].text();
     words.certified = (*own)["certified"].flag();
-    words.undulation_m = (*own)["geoidUndulation"].number(-200.0, 200.0);
     return words;
 }
 
@@ -94,7 +92,7 @@ Result<RecordedShow> read_qgc_plan(std::span<const FileBytes> files) {
         const OwnWords own = read_own(root);
         if (words && own != *words) root["aerogram"].fail("says another show than the file before");
         words = own;
-        show.drones.push_back(read_drone(file, root, own.undulation_m));
+        show.drones.push_back(read_drone(file, root));
         if (problem.found()) return problem.error();
     }
     show.title = words->title;

@@ -6,7 +6,7 @@ namespace aerogram::exporter {
 
 inline constexpr std::size_t kSkycDrones = 5000;
 
-/// Stated accuracy of the curve writer: 3 decimals, and a refit within kFitBound (export/curve_fit.hpp), or the plan is
+/// Stated accuracy of the curve writer: 3 decimals, and a refit within fit_bound (export/curve_fit.hpp), or the plan is
 /// refused. On a Bézier piece of T seconds a control point that is off by e a component moves velocity by 2 d e / T and
 /// acceleration by 4 d (d - 1) e / T² a component (d the degree), vectors by √3 times that; the reader adds the largest
 /// of these over the file's own pieces to the refit's share.
@@ -19,8 +19,8 @@ inline constexpr std::size_t kSkycDrones = 5000;
 [[nodiscard]] const Format& skyc_format();
 
 /// Format::read of skyc_format(). Reads other programs' shows: values inline or by $ref (any depth up to 16, local or
-/// in another .json of the archive), linear to cubic pieces, missing optional parts; versions must be 1. Errors:
-/// invalid_input naming archive, entry and key.
+/// in another .json of the archive), linear to cubic pieces, missing optional parts; versions must be 1.
+/// Errors: invalid_input naming archive, entry and key.
 Result<RecordedShow> read_skyc(std::span<const FileBytes> files);
 
 /// What the format adds to titles; the reader takes it off again.

@@ -176,12 +176,12 @@ std::string lights_json(const FlightPlan& plan, std::size_t i) {
 std::string unsuited(const FlightPlan& plan) {
     if (plan.drones() > kSkycDrones)
         return std::to_string(plan.drones()) + " drones; at most " + std::to_string(kSkycDrones) + " fit into one file";
-    return {};
+    return skyc_misfit(plan);
 }
 
 Result<std::vector<std::string>> write(const FlightPlan& plan, const Seal& seal, const std::filesystem::path& folder,
                                        const Run& run) {
-    if (std::string why = unsuited(plan); !why.empty()) return Error{ErrorCode::invalid_input, "skyc: " + why};
+    AEROGRAM_REQUIRE(plan.drones() <= kSkycDrones, plan.drones());
     auto trajectories = skyc_trajectories(plan, run);
     if (!trajectories) return trajectories.error();
     std::vector<FileBytes> entries{{"show.json", show_json(plan, seal)}, {"cues.json", cues_json(plan.cues)}};

@@ -230,9 +230,10 @@ class Reader {
         }
         const double off_m = std::sqrt(3.0) * kHalfMillimetre_m;
         r.position_m = kHalfMillimetre_m;
-        r.fit_m = kFitBound.position_m;
-        r.speed_allowance_mps = kFitBound.speed_mps + off_m * speed;
-        r.acceleration_allowance_mps2 = kFitBound.acceleration_mps2 + off_m * acceleration;
+        r.fit_m = kFitPosition_m;
+        r.speed_allowance_mps = kFitSpeed_mps + off_m * speed;
+        const double limit_mps2 = show_.limits.value_or(Limits{}).acceleration_mps2;
+        r.acceleration_allowance_mps2 = kFitAccelerationShare * limit_mps2 + off_m * acceleration;
     }
 
     SkycArchive& archive_;

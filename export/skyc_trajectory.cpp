@@ -55,35 +55,55 @@ class TrajectoryText {
     std::string text_;
 };
 
-std::string misfit_text(std::size_t drone, const planner::Act& act, const FitError& error) {
+std::string misfit_text(std::size_t drone, const planner::Act& act, const FitError& error, const FitError& bound) {
     std::ostringstream text;
-    text << "skyc: drone " << drone + 1 << " in act \"" << act.name << "\": pieces of " << kShortestPieceMs
+    text.precision(3);
+    text << "drone " << drone + 1 << " in act \"" << act.name << "\": pieces of " << kShortestPieceMs
          << " ms miss the plan by " << error.position_m << " m, " << error.speed_mps << " m/s, "
-         << error.acceleration_mps2 << " m/s²; at most " << kFitBound.position_m << " m, " << kFitBound.speed_mps
-         << " m/s, " << kFitBound.acceleration_mps2 << " m/s² would do: a longer duration helps";
+         << error.acceleration_mps2 << " m/s²; within " << bound.position_m << " m, " << bound.speed_mps << " m/s, "
+         << bound.acceleration_mps2 << " m/s² would do: a longer duration or a gentler profile helps";
     return text.str();
+}
+
+std::vector<ActFitter> fitters_of(const planner::FlightPlan& plan) {
+    std::vector<ActFitter> fitters;
+    for (const planner::Act& act : plan.acts) fitters.emplace_back(act, plan.limits);
+    return fitters;
 }
 
 }  // namespace
 
+std::string skyc_misfit(const planner::FlightPlan& plan) {
+    const FitError bound = fit_bound(plan.limits);
+    if (bound.position_m <= 0.0) return "export_margin_m leaves no room for millimetres; 0.01 would do";
+    const std::vector<ActFitter> fitters = fitters_of(plan);
+    for (std::size_t i = 0; i < plan.drones(); ++i) {
+        for (std::size_t a = 0; a < fitters.size(); ++a) {
+            const FitError error = fitters[a].fit(DroneId(i)).error;
+            if (!error.within(bound)) return misfit_text(i, plan.acts[a], error, bound);
+        }
+    }
+    return {};
+}
+
 Result<std::vector<std::string>> skyc_trajectories(const planner::FlightPlan& plan, const Run& run) {
-    std::vector<ActFitter> fitters;
-    for (const planner::Act& act : plan.acts) fitters.emplace_back(act);
+    const std::vector<ActFitter> fitters = fitters_of(plan);
+    const FitError bound = fit_bound(plan.limits);
     std::vector<std::string> texts(plan.drones()), misfits(plan.drones());
     parallel_for(plan.drones(), run, "skyc", [&](std::size_t i) {
         const Vec3 start_m = planner::sample(plan, DroneId(i), 0.0).motion.position_m;
         TrajectoryText text(start_m);
         for (std::size_t a = 0; a < fitters.size(); ++a) {
             const Fitted fitted = fitters[a].fit(DroneId(i));
-            if (misfits[i].empty() && !fitted.error.within(kFitBound))
-                misfits[i] = misfit_text(i, plan.acts[a], fitted.error);
+            if (misfits[i].empty() && !fitted.error.within(bound))
+                misfits[i] = misfit_text(i, plan.acts[a], fitted.error, bound);
             for (const FittedPiece& piece : fitted.pieces) text.add(piece);
         }
         texts[i] = std::move(text).finished(plan.duration_ms());
     });
     if (run.stopped()) return stopped_error();
     for (const std::string& misfit : misfits)
-        if (!misfit.empty()) return Error{ErrorCode::infeasible, misfit};
+        if (!misfit.empty()) return Error{ErrorCode::infeasible, "skyc: " + misfit};
     return texts;
 }
 

@@ -85,7 +85,7 @@ class Reader {
             if (!problem_.empty()) break;
             if (seq == 0) {
                 drone.home = geo::Geodetic{item.params[4], item.params[5], 0.0};
-                home_amsl_m = item.params[6];
+                drone.home_amsl_m = home_amsl_m = item.params[6];
             }
             const auto waypoint = waypoint_of(item, drone.home.value_or(geo::Geodetic{}), home_amsl_m);
             if (!waypoint) {

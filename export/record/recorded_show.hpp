@@ -39,6 +39,7 @@ struct RecordedDrone {
     std::optional<geo::Geodetic> home;   ///< untimed formats: where the drone's altitudes count from
     std::vector<Waypoint> waypoints;     ///< untimed formats; else empty
     Tracks tracks;
+    std::optional<double> home_amsl_m;  ///< untimed formats that tell only this height of home; its height_m is 0
 };
 
 /// A format's stated rounding, against which verify judges (FORMATS pages).

@@ -17,14 +17,21 @@ void line_to(RecordedDrone& drone, const Vec3& from, const Vec3& to) {
     drone.controls_m.push_back(to);
 }
 
+/// Of a drone's home, above the ellipsoid. Without an undulation AMSL stands in: differences are kept.
+double home_height_m(const RecordedDrone& untimed, const geo::ShowFrame& frame) {
+    if (!untimed.home_amsl_m) return untimed.home->height_m;
+    return *untimed.home_amsl_m + frame.origin().geoid_undulation_m.value_or(0.0);
+}
+
 RecordedDrone legs_of(const RecordedDrone& untimed, const geo::ShowFrame& frame) {
     RecordedDrone drone;
     drone.name = untimed.name;
     drone.land_m = untimed.land_m;
     drone.tracks = untimed.tracks;
     geo::Geodetic place = *untimed.home;
+    const double home_m = home_height_m(untimed, frame);
     const auto at_height = [&](double altitude_m) {
-        return frame.to_show({place.latitude_deg, place.longitude_deg, untimed.home->height_m + altitude_m});
+        return frame.to_show({place.latitude_deg, place.longitude_deg, home_m + altitude_m});
     };
     Vec3 at = at_height(0.0);
     double altitude_m = 0.0;
