@@ -70,8 +70,7 @@ std::vector<std::vector<Millis>> all_choices(const Act& act) {
     const Millis knots = static_cast<Millis>(planner::interval_count(act.motion));
     if (knots < most) counts.push_back(knots);
     std::ranges::sort(counts);
-    const auto repeated = std::ranges::unique(counts);
-    counts.erase(repeated.begin(), repeated.end());
+    counts.erase(std::unique(counts.begin(), counts.end()), counts.end());
     std::vector<std::vector<Millis>> choices;
     for (const Millis n : counts) choices.push_back(boundaries(act.duration_ms, n));
     return choices;

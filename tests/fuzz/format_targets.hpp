@@ -1,0 +1,68 @@
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "export/csv_zip_reader.hpp"
+#include "export/light_program.hpp"
+#include "export/qgc_plan.hpp"
+#include "export/skyc.hpp"
+#include "export/waypoints.hpp"
+#include "export/zip.hpp"
+#include "tests/fuzz/export_targets.hpp"
+
+/// What the fuzz targets of the formats of other programs do with any bytes: they are a sound show, or refused with a
+/// message that names the file. Build and corpora as in export_targets.hpp.
+namespace aerogram::exporter::fuzz {
+
+using Reader = Result<RecordedShow> (*)(std::span<const FileBytes>);
+
+inline void try_reader(Reader read, const std::string& path, std::string bytes) {
+    const auto show = read(std::vector<FileBytes>{{path, std::move(bytes)}});
+    if (!read_or_refused(show)) return insist(show.error().message.starts_with(path + ":"));
+    insist(!show->drones.empty());
+    insist(show->timed ? well_formed(*show).ok() : !show->drones[0].waypoints.empty());
+}
+
+/// Compressed bytes are hard to mutate: what does not begin like an archive becomes its only entry.
+inline void try_archive(Reader read, const std::string& path, const std::string& entry, std::string_view bytes) {
+    if (bytes.starts_with("PK")) return try_reader(read, path, std::string(bytes));
+    const auto archive = zip_bytes(std::vector<FileBytes>{{entry, std::string(bytes)}});
+    insist(archive.ok());
+    try_reader(read, path, *archive);
+}
+
+inline void try_skyc(std::string_view bytes) {
+    try_archive(read_skyc, "a.skyc", "show.json", bytes);
+}
+inline void try_csv_zip(std::string_view bytes) {
+    try_archive(read_csv_zip, "csv.zip", "a.csv", bytes);
+}
+inline void try_qgc_plan(std::string_view bytes) {
+    try_reader(read_qgc_plan, "a.plan", std::string(bytes));
+}
+inline void try_waypoints(std::string_view bytes) {
+    try_reader(read_waypoints, "a.waypoints", std::string(bytes));
+}
+
+/// What was read is written, read again, and shows the same light at every key.
+inline void try_light_program(std::string_view bytes) {
+    const std::vector<std::uint8_t> program(bytes.begin(), bytes.end());
+    LightProgramLimits limits;
+    limits.instructions = 10'000;
+    const auto keys = decoded_light_program(program, limits);
+    if (!read_or_refused(keys)) return;
+    const Millis end_ms = (keys->empty() ? 0 : keys->back().time_ms) + 1'000;
+    if (end_ms > 80'000'000) return;  // beyond what a reader follows
+    const auto again = decoded_light_program(light_program(*keys, end_ms));
+    insist(again.ok());
+    Millis before_ms = 0;
+    for (const LightKey& key : *keys) {
+        insist(key.time_ms >= before_ms);
+        before_ms = key.time_ms;
+        const double t_s = static_cast<double>(key.time_ms) / 1000.0;
+        insist(quantised(light_at(*again, t_s)) == quantised(light_at(*keys, t_s)));
+    }
+}
+
+}  // namespace aerogram::exporter::fuzz
