@@ -41,8 +41,9 @@ class Builder {
             if (!timed) return timed.error();
             duration_ms = *timed;
         }
-        if (duration_ms > 0)
-            append({leg.name, leg.role, Timing::free, 0, duration_ms, std::move(motion.motion)}, index);
+        const bool given = leg.arrives && (motion.wanted_s || mission_.keyframes[leg.last].at_s);
+        const Timing timing = given ? Timing::fixed : Timing::free;
+        if (duration_ms > 0) append({leg.name, leg.role, timing, 0, duration_ms, std::move(motion.motion)}, index);
         if (leg.arrives) stand(leg, motion, duration_ms);
         return Done{};
     }
@@ -111,7 +112,8 @@ class Builder {
         const Millis hold_ms = milliseconds(mission_.keyframes[leg.last].hold_s);
         standing.stands_from_ms = arrival_ms;
         standing.stands_to_ms = arrival_ms + hold_ms;
-        if (hold_ms > 0) append({standing.name, ActRole::hold, Timing::free, 0, hold_ms, Hold{leg.to_m}}, std::nullopt);
+        if (hold_ms > 0)
+            append({standing.name, ActRole::hold, Timing::fixed, 0, hold_ms, Hold{leg.to_m}}, std::nullopt);
     }
 
     const Mission& mission_;

@@ -65,7 +65,7 @@ function lampMaterial(): THREE.ShaderMaterial {
                 shade = lamp + vec3(0.03);
                 vec4 eye = modelViewMatrix * vec4(position, 1.0);
                 gl_Position = projectionMatrix * eye;
-                gl_PointSize = max(3.0, 2.4 * pixels / max(0.1, -eye.z)) * 2.2;
+                gl_PointSize = max(3.0, 1.6 * pixels / max(0.1, -eye.z)) * 2.2;
             }`,
         fragmentShader: `
             varying vec3 shade;
