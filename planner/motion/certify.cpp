@@ -18,9 +18,10 @@ constexpr double kAltitudeTolerance_m = 1e-3;  ///< curvature of a straight chor
 constexpr double kStandsStill_m = 1e-6;
 constexpr double kMarginResolution_m = 1e-3;
 
+/// Four digits; what is below a tenth of a millimetre (or of any unit here) reads 0.
 std::string number(double value) {
     std::ostringstream text;
-    text << std::setprecision(4) << value;
+    text << std::setprecision(4) << (std::abs(value) < 1e-4 ? 0.0 : value);
     return text.str();
 }
 

@@ -28,15 +28,18 @@ char* openblas_get_corename(void);
 namespace aerogram::planner::dense {
 namespace {
 
+// OpenBLAS reads its environment in a constructor of the default priority, which runs after this one (101).
+// One thread: results must not depend on the count, and callers run transitions side by side. (The build without
+// threads would do, were it safe to call from several: Dense.ManyThreadsGiveTheSameBytes caught it handing one buffer
+// to two.) One kernel: the library picks one for the processor it wakes up on, and kernels differ in their last bits;
+// every processor with AVX2 and FMA runs the same. A kernel that the user has set stands.
+__attribute__((constructor(101))) void pin_openblas() {
+    setenv("OPENBLAS_NUM_THREADS", "1", 1);
 #if defined(__x86_64__)
-// OpenBLAS picks a kernel for the processor it wakes up on, and kernels differ in their last bits. Its choice is made
-// in a constructor of the default priority, which runs after this one (101), and honours the variable: every processor
-// with AVX2 and FMA runs the same kernel. A value the user has set stands.
-__attribute__((constructor(101))) void pin_kernel() {
     __builtin_cpu_init();
     if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) setenv("OPENBLAS_CORETYPE", "Haswell", 0);
-}
 #endif
+}
 
 int as_int(std::size_t n) {
     AEROGRAM_REQUIRE(n <= static_cast<std::size_t>(std::numeric_limits<int>::max()), n);

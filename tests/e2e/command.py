@@ -53,12 +53,12 @@ assert nothing.returncode == 2 and "not a format we read" in nothing.stderr, not
 # A show that cannot be flown: exit 1, pair, time and distance; with --best-effort it is written, marked, and still exit 1.
 crossing = work / "crossing.toml"
 crossing.write_text((SOURCE / "missions/straight.toml").read_text() + '\n[[keyframe]]\nname = "swap"\nshape = "line"\n'
-                    'size_m = [60, 0]\ncenter_m = [0, 0, 40]\narrive = { assign = "keep", separation = "none" }\n'
-                    '[[keyframe]]\nname = "swapped"\nshape = "line"\nsize_m = [60, 0]\ncenter_m = [0, 0, 40]\n'
+                    'size_m = [60]\ncenter_m = [0, 0, 40]\narrive = { assign = "keep", separation = "none" }\n'
+                    '[[keyframe]]\nname = "swapped"\nshape = "line"\nsize_m = [60]\ncenter_m = [0, 0, 40]\n'
                     'rotate_deg = [0, 0, 180]\narrive = { assign = "keep", separation = "none" }\n')
 refused = run("plan", crossing, "-o", work / "crossing")
 assert refused.returncode == 1 and not (work / "crossing").exists(), refused
-assert re.search(r"separation [\d.]+ m of drones \d+ and \d+ at [\d.]+ s is below 1\.55 m", refused.stderr), refused.stderr
+assert re.search(r"separation [\d.]+ m of drones \d+ and \d+ at [\d.]+ s is below 2\.05 m", refused.stderr), refused.stderr
 effort = run("plan", crossing, "-o", work / "crossing", "--best-effort", "--json", "--quiet")
 assert effort.returncode == 1 and json.loads(effort.stdout)["certified"] is False, effort
 assert json.loads((work / "crossing/manifest.json").read_text())["certified"] is False
