@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "geo/units.hpp"
 
@@ -11,6 +12,7 @@ namespace {
 using planner::Act, planner::Kinematics;
 using Cubic = std::array<Vec3, 4>;
 
+constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kStill_m = 1e-9;  ///< a drone whose control points stay this close stands
 
 Vec3 blossom(const Cubic& c, double a, double b, double d) {
@@ -101,10 +103,11 @@ ActFitter::ActFitter(const Act& act, const Limits& limits)
     const auto* straight = std::get_if<planner::Straight>(&act.motion);
     if (straight == nullptr) return;
     const Act unit = unit_flight(act, *straight);
-    for (const auto& bounds : choices_) unit_misfits_.push_back(measured(unit, DroneId(0), bounds));
+    for (const auto& bounds : choices_) unit_misfits_.push_back(measured(unit, DroneId(0), bounds, kNever));
 }
 
-ActFitter::Misfit ActFitter::measured(const Act& act, DroneId drone, const std::vector<Millis>& bounds) {
+ActFitter::Misfit ActFitter::measured(const Act& act, DroneId drone, const std::vector<Millis>& bounds,
+                                      double give_up_m) {
     Misfit result;
     const std::size_t intervals = planner::interval_count(act.motion);
     const double h = planner::knot_step_s(act);
@@ -112,7 +115,7 @@ ActFitter::Misfit ActFitter::measured(const Act& act, DroneId drone, const std::
         result.exact_peak_mps2 =
             std::max(result.exact_peak_mps2, largest_acceleration(planner::bezier(act.motion, m, drone.value), h));
     std::size_t m = 0;
-    for (std::size_t j = 0; j + 1 < bounds.size(); ++j) {
+    for (std::size_t j = 0; j + 1 < bounds.size() && result.position_m <= give_up_m; ++j) {
         const double from_s = seconds_from_ms(bounds[j]), to_s = seconds_from_ms(bounds[j + 1]),
                      length_s = to_s - from_s;
         const Cubic fit = hermite(act, drone, from_s, to_s);
@@ -138,7 +141,8 @@ FitError ActFitter::error_of(const Misfit& m) const {
 }
 
 FitError ActFitter::error_of(DroneId drone, std::size_t choice) const {
-    if (unit_misfits_.empty()) return error_of(measured(act_, drone, choices_[choice]));
+    const double give_up_m = choice + 1 < choices_.size() ? aim_.position_m : kNever;
+    if (unit_misfits_.empty()) return error_of(measured(act_, drone, choices_[choice], give_up_m));
     const auto& straight = std::get<planner::Straight>(act_.motion);
     const double l = glm::length(straight.to_m[drone.value] - straight.from_m[drone.value]);
     const Misfit& unit = unit_misfits_[choice];

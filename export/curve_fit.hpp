@@ -61,7 +61,9 @@ class ActFitter {
     struct Misfit {
         double position_m = 0.0, speed_mps = 0.0, exact_peak_mps2 = 0.0, fit_peak_mps2 = 0.0;
     };
-    [[nodiscard]] static Misfit measured(const planner::Act& act, DroneId drone, const std::vector<Millis>& bounds);
+    /// @param give_up_m  a misfit beyond this ends the measurement: what comes back says no more than "too much".
+    [[nodiscard]] static Misfit measured(const planner::Act& act, DroneId drone, const std::vector<Millis>& bounds,
+                                         double give_up_m);
     [[nodiscard]] FitError error_of(const Misfit& misfit) const;
     [[nodiscard]] FitError error_of(DroneId drone, std::size_t choice) const;
 
