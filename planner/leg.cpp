@@ -104,7 +104,7 @@ class Separator {
     Result<bool> is_separated(const Motion& motion) const {
         auto bound = bound_separation(motion, 1.0, metric_, 2.0 * required_m_, run_);
         if (!bound) return bound.error();
-        return bound->lower_bound_m >= required_m_;
+        return keeps(*bound, required_m_);
     }
 
     Result<Projected> project(const Lattice& lattice, std::vector<std::size_t> pinned_knots, bool wide) const {
@@ -164,7 +164,9 @@ Status separate(const Mission& mission, const Leg& leg, const Run& run, LegMotio
     const Straight straight = straight_transition(leg.from_m, leg.to_m, leg.how.profile, kRows);
     auto straight_is_safe = separator.is_separated(straight);
     if (!straight_is_safe) return straight_is_safe.error();
-    if (leg.how.method == Method::straight && (*straight_is_safe || leg.how.separation == SeparationMethod::none)) {
+    const bool vertical = leg.role == ActRole::takeoff || leg.role == ActRole::landing;  // stays so, whatever comes
+    if (vertical ||
+        (leg.how.method == Method::straight && (*straight_is_safe || leg.how.separation == SeparationMethod::none))) {
         result.motion = straight;
         return Done{};
     }

@@ -1,5 +1,6 @@
 #include <exception>
 #include <iostream>
+#include <new>
 
 #include "ground/app/command_line.hpp"
 #include "ground/app/commands.hpp"
@@ -36,6 +37,9 @@ int main(int argc, char** argv) {
             return farewell->status;
         }
         return dispatch(std::get<CommandLine>(parsed));
+    } catch (const std::bad_alloc&) {
+        std::cerr << "aerogram: there is not enough memory for this\n";
+        return kBadInput;
     } catch (const std::exception& bug) {
         std::cerr << "aerogram: this is a bug, please report it: " << bug.what() << "\n";
         return 70;

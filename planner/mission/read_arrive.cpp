@@ -7,6 +7,9 @@ namespace aerogram::planner {
 
 namespace {
 
+/// Full eigenbases are n × n and take time n³: beyond this a transition takes minutes and gigabytes.
+constexpr std::size_t kMostSpectralDrones = 2000;
+
 void read_spectral(TableReader& arrive, SpectralOptions& out) {
     auto in = arrive.table("spectral");
     if (!in) return;
@@ -104,6 +107,12 @@ Arrive read_arrive(TableReader& keyframe, const Mission& mission) {
     if (in->number("stagger_s", at_least(0.0)).value_or(0.0) > 0.0) in->later("stagger_s", "must be 0");
     read_spectral(*in, out.spectral);
     read_flow(*in, out.flow);
+    const bool spectral =
+        out.method == Method::spectral || (out.method == Method::flow && out.flow.of == FlowOf::spectral);
+    if (spectral && mission.fleet.drones > kMostSpectralDrones) {
+        in->bad("method", "spectral motion of more than " + std::to_string(kMostSpectralDrones) +
+                              " drones is not in this version; must be \"straight\", or \"flow\" of positions");
+    }
     in->later("groups", "one method moves the whole fleet");
     in->misplaced(source_keys(), "belongs to the keyframe; must stand before [keyframe.arrive]");
     constexpr std::string_view kOfKeyframe[] = {"name", "center_m", "rotate_deg", "color", "at_s", "hold_s", "motion"};

@@ -121,6 +121,11 @@ void check_order(std::vector<TableReader>& tables, const std::vector<Keyframe>& 
             timed = k;
         }
         if (keyframe.hold_s > 0.0) continue;
+        if (keyframe.at_s) {
+            tables[k].bad("at_s",
+                          "a time for a keyframe that a flow passes is not in this version; give it to the flow's "
+                          "last keyframe, or shares of the time by duration_s");
+        }
         if (k + 1 == keyframes.size()) {
             tables[k].bad("hold_s", "must be > 0 in the last keyframe");
         } else if (keyframes[k + 1].arrive.method != Method::flow) {

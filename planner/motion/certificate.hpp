@@ -27,6 +27,12 @@ struct SeparationBound {
     std::optional<Encounter> closest;  ///< absent with fewer than two drones
 };
 
+/// Separations are judged to this: a formation at exactly the required spacing is not refused for its last digits.
+inline constexpr double kSeparationTolerance_m = 1e-5;
+[[nodiscard]] inline bool keeps(const SeparationBound& bound, double required_m) {
+    return bound.lower_bound_m >= required_m - kSeparationTolerance_m;
+}
+
 /// Bounds the smallest distance of any pair at any instant of the act.
 /// Straight acts: closed form for all pairs. Others: convex hull of the difference's four Bézier control points (z
 /// divided by the downwash), one separating direction, bisection while inconclusive; uniform hash grid per knot

@@ -13,8 +13,9 @@
 namespace aerogram::planner {
 namespace {
 
-constexpr double kRelative = 1e-9;             ///< limits are met up to rounding
-constexpr double kAltitudeTolerance_m = 1e-3;  ///< curvature of a straight chord, of no consequence to a vehicle
+constexpr double kRelative = 1e-9;  ///< limits are met up to rounding
+constexpr double kAltitudeTolerance_m =
+    1e-3;  ///< curvature of a straight chord, of no consequence to a vehicle; verify's too
 constexpr double kStandsStill_m = 1e-6;
 constexpr double kMarginResolution_m = 1e-3;
 
@@ -39,7 +40,21 @@ struct Worst {
 };
 
 using Curve = std::array<Vec3, 4>;
-using Margin = std::function<double(const Vec3&)>;  ///< 1-Lipschitz
+
+/// A distance to keep, 1-Lipschitz in its place; upright ones do not depend on height.
+struct Margin {
+    std::function<double(const Vec3&)> at;
+    bool upright = false;
+
+    [[nodiscard]] double radius_m(const Vec3& offset) const {
+        return upright ? glm::length(Vec2(offset)) : glm::length(offset);
+    }
+};
+
+/// Margins are found to a millimetre near zero and to a thousandth elsewhere.
+double resolution_m(double margin_m) {
+    return std::max(kMarginResolution_m, 1e-3 * margin_m);
+}
 
 /// Smallest value of a 1-Lipschitz margin along a Bézier curve: the middle of the hull, less the hull's radius; halves
 /// while that is not yet within the resolution of the smallest value seen.
@@ -48,17 +63,17 @@ void search_margin(const Curve& d, double begin_s, double end_s, std::size_t dro
     Vec3 middle{};
     for (const Vec3& p : d) middle += 0.25 * p;
     double radius = 0.0;
-    for (const Vec3& p : d) radius = std::max(radius, glm::length(p - middle));
-    const double at_middle = margin(middle);
-    if (at_middle - radius >= worst.margin_m - kMarginResolution_m) {
+    for (const Vec3& p : d) radius = std::max(radius, margin.radius_m(p - middle));
+    const double at_middle = margin.at(middle);
+    if (at_middle - radius >= worst.margin_m - resolution_m(worst.margin_m)) {
         lower_m = std::min(lower_m, at_middle - radius);
         return;
     }
-    const double at_start = margin(d[0]);
+    const double at_start = margin.at(d[0]);
     if (at_start < worst.margin_m) worst = {at_start, drone, begin_s};
-    const double at_end = margin(d[3]);
+    const double at_end = margin.at(d[3]);
     if (at_end < worst.margin_m) worst = {at_end, drone, end_s};
-    if (radius <= kMarginResolution_m || depth == 0) {
+    if (radius <= resolution_m(at_middle) || depth == 0) {
         lower_m = std::min(lower_m, at_middle - radius);
         return;
     }
@@ -69,11 +84,12 @@ void search_margin(const Curve& d, double begin_s, double end_s, std::size_t dro
     search_margin({half, bc, c, d[3]}, half_s, end_s, drone, depth - 1, margin, worst, lower_m);
 }
 
-Worst smallest_margin(const Act& act, const Margin& margin) {
+/// The smallest margin found; an unfinished search (a stop was asked for) is thrown away by the caller.
+Worst smallest_margin(const Act& act, const Margin& margin, const Run& run) {
     Worst worst;
     double lower_m = std::numeric_limits<double>::infinity();
     const double step_s = knot_step_s(act);
-    for (std::size_t i = 0; i < drone_count(act.motion); ++i) {
+    for (std::size_t i = 0; i < drone_count(act.motion) && !run.stopped(); ++i) {
         for (std::size_t m = 0; m < interval_count(act.motion); ++m) {
             const double begin_s = static_cast<double>(m) * step_s;
             search_margin(bezier(act.motion, m, i), begin_s, begin_s + step_s, i, 40, margin, worst, lower_m);
@@ -101,7 +117,7 @@ class Judge {
             bound_separation(act_.motion, seconds_from_ms(act_.duration_ms), {around_.limits.downwash}, beyond, run);
         if (!bound) return bound.error();
         certificate_.separation = *bound;
-        if (bound->lower_bound_m >= required || drone_count(act_.motion) < 2) return Done{};
+        if (drone_count(act_.motion) < 2 || keeps(*bound, required)) return Done{};
         const Encounter& e = *bound->closest;
         violated("separation " + number(e.distance_m) + " m of drones " + std::to_string(e.first.number()) + " and " +
                  std::to_string(e.second.number()) + " at " + show_time(e.time_s) + " is below " + number(required) +
@@ -128,12 +144,12 @@ class Judge {
         for (std::size_t i = 0; i < drone_count(act_.motion); ++i) {
             for (std::size_t m = 0; m < interval_count(act_.motion); ++m) {
                 const Curve curve = bezier(act_.motion, m, i);
-                const auto [low, high] = std::minmax_element(curve.begin(), curve.end(),
-                                                             [](const Vec3& a, const Vec3& b) { return a.z < b.z; });
-                const double high_m = around_.frame.altitude_above(around_.pads_m[i], *high);
-                const double low_m = around_.frame.altitude_above(around_.pads_m[i], *low);
-                if (high_m > highest) {
-                    highest = high_m;
+                double low_m = std::numeric_limits<double>::infinity();
+                for (const Vec3& p : curve) {
+                    const double altitude_m = around_.frame.altitude_above(around_.pads_m[i], p);
+                    low_m = std::min(low_m, altitude_m);
+                    if (altitude_m <= highest) continue;
+                    highest = altitude_m;
                     highest_drone = i;
                 }
                 lowest = std::min(lowest, low_m);
@@ -148,21 +164,20 @@ class Judge {
         }
     }
 
-    void judge_airspace() {
+    void judge_airspace(const Run& run) {
         const geo::Airspace& air = around_.airspace;
         if (!air.geofence_m.empty()) {
-            certificate_.geofence_margin_m = judge_margin(
-                "outside the geofence", [&](const Vec3& p) { return geo::signed_distance(air.geofence_m, Vec2(p)); });
+            const auto inside = [&](const Vec3& p) { return geo::signed_distance(air.geofence_m, Vec2(p)); };
+            certificate_.geofence_margin_m = judge_margin("outside the geofence", {inside, true}, run);
         }
         for (const geo::Polygon& polygon : air.audience_m) {
-            take_smaller(certificate_.audience_margin_m, judge_margin("over the audience", [&](const Vec3& p) {
-                             return -geo::signed_distance(polygon, Vec2(p));
-                         }));
+            const auto outside = [&](const Vec3& p) { return -geo::signed_distance(polygon, Vec2(p)); };
+            take_smaller(certificate_.audience_margin_m, judge_margin("over the audience", {outside, true}, run));
         }
         for (const geo::Obstacle& obstacle : air.obstacles) {
+            const auto clear = [&](const Vec3& p) { return geo::clearance(obstacle, p); };
             take_smaller(certificate_.obstacle_margin_m,
-                         judge_margin("inside obstacle " + obstacle.name,
-                                      [&](const Vec3& p) { return geo::clearance(obstacle, p); }));
+                         judge_margin("inside obstacle " + obstacle.name, {clear, false}, run));
         }
     }
 
@@ -192,8 +207,8 @@ class Judge {
         }
     }
 
-    double judge_margin(const std::string& breach, const Margin& margin) {
-        const Worst worst = smallest_margin(act_, margin);
+    double judge_margin(const std::string& breach, const Margin& margin, const Run& run) {
+        const Worst worst = smallest_margin(act_, margin, run);
         if (worst.margin_m < 0.0) {
             violated("drone " + std::to_string(worst.drone + 1) + " is " + breach + " by " + number(-worst.margin_m) +
                      " m at " + show_time(worst.time_s));
@@ -227,7 +242,8 @@ Result<ActCertificate> certify(const Act& act, const Surroundings& surroundings,
     judge.judge_dynamics();
     judge.judge_altitude();
     if (run.stopped()) return stopped_error();
-    judge.judge_airspace();
+    judge.judge_airspace(run);
+    if (run.stopped()) return stopped_error();
     return std::move(judge).result();
 }
 

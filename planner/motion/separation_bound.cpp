@@ -13,7 +13,7 @@ namespace aerogram::planner {
 namespace {
 
 /// Distances are resolved to this share of themselves, and never finer than a micrometre.
-constexpr double kResolution = 1e-4, kFinest_m = 1e-6;
+constexpr double kResolution = 2e-6, kFinest_m = 1e-6;
 /// What rounding may have added to a bound: metres, for coordinates up to 100 km.
 constexpr double kRounding_m = 1e-9;
 
@@ -98,8 +98,8 @@ void bound_pair(const Hull& d, std::size_t i, std::size_t j, double begin, doubl
 }
 
 /// Straight synchronised flight: the difference runs along a segment, whatever the profile.
-SeparationBound bound_straight(const Straight& straight, double duration_s, const SeparationMetric& metric,
-                               double beyond_m) {
+Result<SeparationBound> bound_straight(const Straight& straight, double duration_s, const SeparationMetric& metric,
+                                       double beyond_m, const Run& run) {
     Points from(straight.from_m.size()), to(straight.to_m.size());
     std::transform(straight.from_m.begin(), straight.from_m.end(), from.begin(),
                    [&](const Vec3& p) { return metric.scaled(p); });
@@ -108,6 +108,7 @@ SeparationBound bound_straight(const Straight& straight, double duration_s, cons
     double best_squared = beyond_m * beyond_m;
     std::size_t first = 0, second = 0;
     for (std::size_t i = 0; i < from.size(); ++i) {
+        if (run.stopped()) return stopped_error();
         for (std::size_t j = i + 1; j < from.size(); ++j) {
             const Vec3 a = from[j] - from[i], way = (to[j] - to[i]) - a;
             const double along = glm::dot(a, way), squared = glm::dot(way, way);
@@ -188,7 +189,7 @@ Result<SeparationBound> bound_separation(const Motion& motion, double duration_s
                                          double beyond_m, const Run& run) {
     AEROGRAM_REQUIRE(beyond_m > 0.0 && metric.downwash >= 1.0, beyond_m, metric.downwash);
     if (const auto* straight = std::get_if<Straight>(&motion))
-        return bound_straight(*straight, duration_s, metric, beyond_m);
+        return bound_straight(*straight, duration_s, metric, beyond_m, run);
     Minimum minimum(beyond_m);
     if (const auto* hold = std::get_if<Hold>(&motion)) {
         bound_hold(*hold, metric, beyond_m, minimum);

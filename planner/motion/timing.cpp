@@ -7,6 +7,8 @@
 namespace aerogram::planner {
 namespace {
 
+constexpr double kNobodyMoves_m = 1e-9;  ///< rounding noise is no movement
+
 /// Largest differences of neighbouring rows, over all drones: what the limited quantities are in units of the knot
 /// step.
 struct Differences {
@@ -84,9 +86,9 @@ ShortestDuration shortest_duration(const Motion& motion, const Limits& limits) {
                                         {std::cbrt(d.third_m / limits.jerk_mps3), "jerk_mps3"}}};
     const Need& most =
         *std::max_element(needs.begin(), needs.end(), [](const Need& a, const Need& b) { return a.step_s < b.step_s; });
-    if (most.step_s <= 0.0) return {0, ""};
+    if (std::max({d.horizontal_m, d.up_m, d.down_m}) <= kNobodyMoves_m) return {0, ""};
     const double duration_ms = most.step_s * static_cast<double>(interval_count(motion)) * 1000.0;
-    return {std::max<Millis>(1, static_cast<Millis>(std::ceil(duration_ms - 1e-6))), most.limit};
+    return {std::max<Millis>(1, static_cast<Millis>(std::ceil(duration_ms))), most.limit};
 }
 
 }  // namespace aerogram::planner

@@ -59,16 +59,14 @@ class Projector {
     Result<Projected> run(const Run& run) {
         evaluate();
         break_symmetry();
-        Projected best;
         for (int round = 0; round < task_.max_rounds; ++round) {
             if (run.stopped()) return stopped_error();
             evaluate();
             const double closest_m = collect();
-            if (closest_m >= task_.required_m) {
+            if (closest_m >= task_.required_m && in_band()) {
                 auto bound = bound_separation(lattice_, 1.0, task_.metric, 2.0 * task_.required_m, run);
                 if (!bound) return bound.error();
-                if (bound->lower_bound_m >= task_.required_m)
-                    return Projected{lattice_, round, bound->lower_bound_m, true};
+                if (keeps(*bound, task_.required_m)) return Projected{lattice_, round, bound->lower_bound_m, true};
                 aim_m_ += 0.5 * (task_.required_m - bound->lower_bound_m) + 1e-4;
             }
             push_into_band();
@@ -78,7 +76,20 @@ class Projector {
         }
         auto bound = bound_separation(lattice_, 1.0, task_.metric, 2.0 * task_.required_m, run);
         if (!bound) return bound.error();
-        return Projected{lattice_, task_.max_rounds, bound->lower_bound_m, bound->lower_bound_m >= task_.required_m};
+        return Projected{lattice_, task_.max_rounds, bound->lower_bound_m,
+                         keeps(*bound, task_.required_m) && in_band()};
+    }
+
+    /// Whether all rows that may move are within the band.
+    bool in_band() const {
+        for (std::size_t k = 0; k < rows_; ++k) {
+            if (fixed_[k]) continue;
+            for (std::size_t i = 0; i < n_; ++i) {
+                const double z = lattice_.at(k, i).z;
+                if (z < task_.floor_z_m || z > task_.ceiling_z_m) return false;
+            }
+        }
+        return true;
     }
 
   private:
@@ -234,10 +245,9 @@ Result<Projected> project_separation(const Lattice& input, const ProjectionTask&
                      input.drones, input.rows(), task.required_m, task.samples_per_interval);
     auto bound = bound_separation(input, 1.0, task.metric, 2.0 * task.required_m, run);
     if (!bound) return bound.error();
-    const bool in_band = std::all_of(input.points_m.begin(), input.points_m.end(),
-                                     [&](const Vec3& p) { return p.z >= task.floor_z_m && p.z <= task.ceiling_z_m; });
-    if (bound->lower_bound_m >= task.required_m && in_band) return Projected{input, 0, bound->lower_bound_m, true};
-    return Projector(input, task).run(run);
+    Projector projector(input, task);
+    if (keeps(*bound, task.required_m) && projector.in_band()) return Projected{input, 0, bound->lower_bound_m, true};
+    return projector.run(run);
 }
 
 }  // namespace aerogram::planner

@@ -24,7 +24,7 @@ struct Projected {
     Lattice lattice;
     int rounds = 0;
     double lower_bound_m = 0.0;  ///< bound_separation of the result
-    bool separated = false;      ///< lower_bound_m >= required
+    bool separated = false;      ///< keeps(lower_bound_m, required) and all free rows are in the band
 };
 
 /// Moves control points as little and as smoothly as it can until no two drones come closer than required: Sobolev

@@ -32,12 +32,12 @@ namespace {
 // One thread: results must not depend on the count, and callers run transitions side by side. (The build without
 // threads would do, were it safe to call from several: Dense.ManyThreadsGiveTheSameBytes caught it handing one buffer
 // to two.) One kernel: the library picks one for the processor it wakes up on, and kernels differ in their last bits;
-// every processor with AVX2 and FMA runs the same. A kernel that the user has set stands.
+// every processor with AVX2 and FMA runs the same.
 __attribute__((constructor(101))) void pin_openblas() {
     setenv("OPENBLAS_NUM_THREADS", "1", 1);
 #if defined(__x86_64__)
     __builtin_cpu_init();
-    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) setenv("OPENBLAS_CORETYPE", "Haswell", 0);
+    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) setenv("OPENBLAS_CORETYPE", "Haswell", 1);
 #endif
 }
 

@@ -141,6 +141,19 @@ TEST(Projection, StaysInItsBand) {
     }
 }
 
+TEST(Projection, SeparatedInputOutsideItsBandIsBroughtIn) {
+    Lattice input = straight_lattice({{0, 0, 10}, {5, 0, 10}}, {{0, 9, 10}, {5, 9, 10}});
+    for (std::size_t k = 20; k < 40; ++k) {
+        for (std::size_t i = 0; i < 2; ++i) input.at(k, i).z = 15.0;
+    }
+    ProjectionTask task = task_for(1.55);
+    task.ceiling_z_m = 12.0;
+    const auto result = project_separation(input, task, {});
+    ASSERT_TRUE(result && result->separated);
+    EXPECT_GT(result->rounds, 0);
+    for (const Vec3& p : result->lattice.points_m) EXPECT_LE(p.z, 12.0);
+}
+
 TEST(Projection, PinnedKnotsKeepTheirPlaceSpeedAndAcceleration) {
     const Points from = flat_grid(3, 2.2, 20), to = shuffled(from, 8);
     const Lattice input = straight_lattice(from, to);

@@ -19,9 +19,8 @@ dense::Matrix random_matrix(Random& random, std::size_t n) {
 
 #if defined(__x86_64__)
 TEST(Dense, KernelIsPinnedWhereTheProcessorHasIt) {
-    if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) GTEST_SKIP() << "no AVX2 and FMA here";
-    if (std::string(std::getenv("OPENBLAS_CORETYPE")) != "Haswell") GTEST_SKIP() << "the user chose another kernel";
-    EXPECT_STREQ(dense::kernel_name(), "Haswell");
+    const bool has_it = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+    EXPECT_EQ(std::string(dense::kernel_name()) == "Haswell", has_it) << dense::kernel_name();
 }
 #endif
 
@@ -88,7 +87,8 @@ TEST(Dense, ManyThreadsGiveTheSameBytes) {
     for (char& mine : same) {
         threads.emplace_back([&] {
             bool all = true;
-            for (int i = 0; i < 2000; ++i) all = all && dense::product(a, dense::Op::plain, b).values == expected.values;
+            for (int i = 0; i < 2000; ++i)
+                all = all && dense::product(a, dense::Op::plain, b).values == expected.values;
             mine = all ? 1 : 0;
         });
     }
