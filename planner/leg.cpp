@@ -107,7 +107,7 @@ class Separator {
         return keeps(*bound, required_m_);
     }
 
-    Result<Projected> project(const Lattice& lattice, std::vector<std::size_t> pinned_knots, bool wide) const {
+    Result<Projected> project(const Lattice& lattice, std::vector<std::size_t> held_knots, bool wide) const {
         const Band band = band_of(mission_, leg_);
         ProjectionTask task;
         task.required_m = required_m_;
@@ -115,7 +115,7 @@ class Separator {
         task.floor_z_m = band.floor_z_m;
         task.ceiling_z_m = band.ceiling_z_m;
         task.seed = mission_.seed;
-        task.pinned_knots = std::move(pinned_knots);
+        task.held_knots = std::move(held_knots);
         task.samples_per_interval = leg_.pairwise && !wide ? 1 : 2;
         if (wide) task.smoothing_knots = static_cast<double>(lattice.rows()) / 10.0;
         return project_separation(lattice, task, run_);
@@ -144,16 +144,16 @@ Status separate_flow(const Mission& mission, const Leg& leg, const Flow& flow, c
     result.motion = flow.lattice;
     result.keyframe_knots.assign(flow.keyframe_knots.begin() + 1, flow.keyframe_knots.end());
     if (leg.how.separation == SeparationMethod::none) return Done{};
-    std::vector<std::size_t> pinned(flow.keyframe_knots.begin() + 1, flow.keyframe_knots.end() - 1);
+    std::vector<std::size_t> held(flow.keyframe_knots.begin() + 1, flow.keyframe_knots.end() - 1);
     const Separator separator(mission, leg, run);
-    auto projected = separator.project(flow.lattice, pinned, false);
+    auto projected = separator.project(flow.lattice, held, false);
     if (!projected) return projected.error();
     if (projected->separated) {
         take(result, std::move(*projected), "projection");
         return Done{};
     }
     result.report.separation_rounds += projected->rounds;
-    projected = separator.project(flow.lattice, pinned, true);
+    projected = separator.project(flow.lattice, held, true);
     if (!projected) return projected.error();
     take(result, std::move(*projected), "projection, wide filter");
     return Done{};

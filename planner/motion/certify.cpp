@@ -140,7 +140,7 @@ class Judge {
     /// below the lowest one by the sagitta of a piece (under a micrometre for pieces of metres).
     void judge_altitude() {
         double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
-        std::size_t highest_drone = 0;
+        std::size_t highest_drone = 0, highest_interval = 0;
         for (std::size_t i = 0; i < drone_count(act_.motion); ++i) {
             for (std::size_t m = 0; m < interval_count(act_.motion); ++m) {
                 const Curve curve = bezier(act_.motion, m, i);
@@ -151,6 +151,7 @@ class Judge {
                     if (altitude_m <= highest) continue;
                     highest = altitude_m;
                     highest_drone = i;
+                    highest_interval = m;
                 }
                 lowest = std::min(lowest, low_m);
                 judge_low_flight(i, m, curve, low_m);
@@ -159,7 +160,8 @@ class Judge {
         certificate_.altitude_min_m = lowest;
         certificate_.altitude_max_m = highest;
         if (highest > around_.limits.ceiling_m + kAltitudeTolerance_m) {
-            violated("altitude " + number(highest) + " m of drone " + std::to_string(highest_drone + 1) +
+            violated("altitude " + number(highest) + " m of drone " + std::to_string(highest_drone + 1) + " at " +
+                     show_time(static_cast<double>(highest_interval) * knot_step_s(act_)) +
                      " is above ceiling_m = " + number(around_.limits.ceiling_m));
         }
     }

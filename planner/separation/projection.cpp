@@ -48,11 +48,14 @@ class Projector {
         pairs_.resize(samples - 1);
         std::vector<bool> fixed(rows_, false);
         for (std::size_t k = 0; k < 3; ++k) fixed[k] = fixed[rows_ - 1 - k] = true;
-        for (const std::size_t knot : task.pinned_knots) {
-            for (std::size_t k = knot; k < knot + 3; ++k) fixed[k] = true;
+        banded_ = std::vector<bool>(rows_);
+        for (std::size_t k = 0; k < rows_; ++k) banded_[k] = !fixed[k];
+        for (const std::size_t knot : task.held_knots) {
+            AEROGRAM_REQUIRE(knot >= 3 && knot + 6 <= rows_, knot, rows_);
+            for (std::size_t k = knot; k < knot + 3; ++k) banded_[k] = false;
         }
         const double width = task.smoothing_knots > 0.0 ? task.smoothing_knots : static_cast<double>(rows_) / 17.0;
-        smoother_.emplace(fixed, std::pow(width, 4));
+        smoother_.emplace(fixed, std::pow(width, 4), task.held_knots);
         fixed_ = std::move(fixed);
     }
 
@@ -83,7 +86,7 @@ class Projector {
     /// Whether all rows that may move are within the band.
     bool in_band() const {
         for (std::size_t k = 0; k < rows_; ++k) {
-            if (fixed_[k]) continue;
+            if (!banded_[k]) continue;
             for (std::size_t i = 0; i < n_; ++i) {
                 const double z = lattice_.at(k, i).z;
                 if (z < task_.floor_z_m || z > task_.ceiling_z_m) return false;
@@ -167,12 +170,12 @@ class Projector {
             if (!meets[i]) continue;
             sideways *= kNoise_m / std::max(0.1, glm::length(sideways));
             for (std::size_t k = 3; k + 3 < rows_; ++k) {
-                if (fixed_[k]) continue;
                 const double u = static_cast<double>(k - 2) / static_cast<double>(rows_ - 5);
-                const double bump = 16.0 * u * u * (1.0 - u) * (1.0 - u);
-                lattice_.at(k, i) += bump * sideways;
+                corrections_[k * n_ + i] = 16.0 * u * u * (1.0 - u) * (1.0 - u) * sideways;
             }
         }
+        smoother_->apply(corrections_);
+        for (std::size_t p = 0; p < corrections_.size(); ++p) lattice_.points_m[p] += corrections_[p];
     }
 
     /// Fills corrections_ with Bᵀ of what would push each too close pair to the aim; returns the smallest chord
@@ -220,7 +223,7 @@ class Projector {
 
     void keep_in_band() {
         for (std::size_t k = 0; k < rows_; ++k) {
-            if (fixed_[k]) continue;
+            if (!banded_[k]) continue;
             for (std::size_t i = 0; i < n_; ++i) {
                 double& z = lattice_.at(k, i).z;
                 z = std::clamp(z, task_.floor_z_m, task_.ceiling_z_m);
@@ -232,7 +235,7 @@ class Projector {
     std::size_t n_, rows_;
     Lattice lattice_;
     double aim_m_;
-    std::vector<bool> fixed_;
+    std::vector<bool> fixed_, banded_;  ///< rows that never move; rows that the band binds
     std::optional<SobolevSmoother> smoother_;
     Points samples_, listed_at_, corrections_;
     std::vector<std::vector<Pair>> pairs_;  ///< by chord

@@ -17,8 +17,9 @@ struct ProjectionTask {
     int max_rounds = 400;
     double smoothing_knots = 0.0;          ///< W, width over which a correction spreads; 0: rows / 17
     std::size_t samples_per_interval = 1;  ///< chords a knot interval: 1 for matched maps, 2 otherwise
-    /// Knots (0..K-3) where position, velocity and acceleration stay as they are (keyframes that a flow passes).
-    std::vector<std::size_t> pinned_knots;
+    /// Inner knots (3..K-6) whose positions stay as they are: the keyframes that a flow passes. Velocities there may
+    /// change; the band does not apply to the three rows that carry one.
+    std::vector<std::size_t> held_knots;
 };
 struct Projected {
     Lattice lattice;

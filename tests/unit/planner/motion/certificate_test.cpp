@@ -248,7 +248,7 @@ TEST(Certify, NamesEachBrokenLimit) {
     EXPECT_THAT(fast->violations, ::testing::Contains(HasSubstr("speed_horizontal_mps: reaches 18.7")));
     EXPECT_THAT(fast->violations, ::testing::Contains(HasSubstr("acceleration_mps2")));
     const auto high = certify(straight_act({{0, 0, 100}}, {{0, 0, 121}}, 60000), over_tokyo(1), {});
-    EXPECT_THAT(high->violations, ElementsAre(HasSubstr("altitude 121 m of drone 1 is above ceiling_m = 120")));
+    EXPECT_THAT(high->violations, ElementsAre(HasSubstr("altitude 121 m of drone 1 at 68.50 s is above ceiling_m = 120")));
     const auto low = certify(straight_act({{0, 0, 2}}, {{5, 0, 2}}, 60000), over_tokyo(1), {});
     EXPECT_THAT(low->violations, ElementsAre(HasSubstr("drone 1 moves sideways at 2 m")));
     const auto vertical = certify(straight_act({{0, 0, 0}}, {{0, 0, 3}}, 60000), over_tokyo(1), {});
