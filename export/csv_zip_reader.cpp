@@ -126,7 +126,6 @@ std::vector<LightKey> lights(const std::vector<Row>& rows) {
 RecordedDrone drone_from(std::string name, const std::vector<Row>& rows) {
     RecordedDrone drone;
     drone.name = std::move(name);
-    drone.home_m = rows.front().position_m;
     for (std::size_t k = 0; k < rows.size(); ++k) {
         drone.controls_m.push_back(rows[k].position_m);
         if (k + 1 == rows.size()) break;

@@ -105,11 +105,12 @@ Status check_format(Job& job, const planner::FlightPlan& plan, const Seal& seal,
         job.files.push_back({path, job.exported.name, bytes->size(), sha256_hex(*bytes), std::nullopt, std::nullopt});
         files.push_back({path, std::move(*bytes)});
     }
-    const Result<RecordedShow> show = job.format->read(files);
+    Result<RecordedShow> show = job.format->read(files);
     if (!show) return Error{ErrorCode::io, "what was written cannot be read back: " + show.error().message};
     const std::string wrong = wrong_identity(*show, plan, seal);
     if (!wrong.empty()) return Error{ErrorCode::io, "what was written as " + job.exported.name + " " + wrong};
     job.rounding = show->rounding;
+    state_missing_places(*show, plan.pads_m);
     Result<Judgement> judgement = judge(*show, judge_against(plan), run);
     if (!judgement) return judgement.error();
     job.exported.judgement = std::move(*judgement);
@@ -142,14 +143,23 @@ std::optional<Error> write_and_check(std::vector<Job>& jobs, const planner::Flig
     return first_error(jobs, run);
 }
 
-std::string shown(double value) {
-    std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "%.4g", value);
+constexpr int kDigits = 4, kMostDigits = 17;
+
+std::string shown(double value, int digits = kDigits) {
+    std::array<char, 40> text{};
+    std::snprintf(text.data(), text.size(), "%.*g", digits, value);
     return text.data();
 }
 
+/// "120.0011, limit 120": with as many digits as it takes to tell them apart.
+std::string worst_and_limit(const Finding& finding) {
+    int digits = kDigits;
+    while (digits < kMostDigits && shown(finding.worst, digits) == shown(finding.limit, digits)) ++digits;
+    return shown(finding.worst, digits) + ", limit " + shown(finding.limit, digits);
+}
+
 std::string describe(const std::string& format, const Finding& finding) {
-    std::string text = format + ": " + finding.rule + " " + shown(finding.worst) + ", limit " + shown(finding.limit);
+    std::string text = format + ": " + finding.rule + " " + worst_and_limit(finding);
     if (!finding.drones.empty()) text += finding.drones.size() == 1 ? ", drone" : ", drones";
     for (const std::size_t drone : finding.drones) text += " " + std::to_string(drone);
     if (finding.time_s) text += ", at " + shown(*finding.time_s) + " s";

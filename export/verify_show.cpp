@@ -97,6 +97,9 @@ class FolderCheck {
             return Done{};
         }
         problems(path, disagreement_with_manifest(*show, manifest_));
+        Points pads_m;
+        for (const ManifestDrone& drone : manifest_.drones) pads_m.push_back(drone.pad_m);
+        state_missing_places(*show, pads_m);
         const Status sound = well_formed(*show);
         if (!sound) {
             problem(path, sound.error().message);

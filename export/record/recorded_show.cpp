@@ -51,6 +51,15 @@ Status well_formed(const RecordedShow& show) {
     return Done{};
 }
 
+void state_missing_places(RecordedShow& show, std::span<const Vec3> pads_m) {
+    if (pads_m.size() != show.drones.size()) return;
+    for (std::size_t d = 0; d < pads_m.size(); ++d) {
+        RecordedDrone& drone = show.drones[d];
+        if (!drone.home_m) drone.home_m = pads_m[d];
+        if (!drone.land_m) drone.land_m = pads_m[d];
+    }
+}
+
 Bezier curve_of(const RecordedDrone& drone, const Piece& piece) {
     Bezier curve;
     curve.degree = piece.degree;

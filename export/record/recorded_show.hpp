@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -33,7 +34,7 @@ struct Waypoint {
 
 struct RecordedDrone {
     std::string name;                    ///< the stable identifier, "drone-001"
-    std::optional<Vec3> home_m, land_m;  ///< show frame
+    std::optional<Vec3> home_m, land_m;  ///< show frame; as stated, never guessed from the trajectory
     std::vector<Piece> pieces;           ///< in time order, without gaps; first and last positions hold outside
     std::vector<Vec3> controls_m;        ///< show frame
     std::optional<geo::Geodetic> home;   ///< untimed formats: where the drone's altitudes count from
@@ -73,6 +74,10 @@ struct RecordedShow {
 /// points present, finite and within 1e8 m; durations > 0; each piece starts where the one before ends, to 1
 /// microsecond. Errors: invalid_input naming drone and piece.
 [[nodiscard]] Status well_formed(const RecordedShow& show);
+
+/// Gives each drone whose file states no home, or no landing place, its pad for that.
+/// @param pads_m  show frame; with another number of pads than drones nothing changes.
+void state_missing_places(RecordedShow& show, std::span<const Vec3> pads_m);
 
 /// The curve of a drone from start_s of a piece to start_s of the next (to the end of the last) is that piece's
 /// polynomial in u = (t - start_s) / duration_s; before and after all pieces the first and last points hold.

@@ -7,6 +7,8 @@ namespace aerogram::exporter {
 namespace {
 
 constexpr double kCellsAcrossLargest = 32.0;
+constexpr double kSmallestCell_m = 1e-3;
+constexpr double kSmallestCellShare = 1e-9;  ///< of the farthest coordinate: cells are numbered within ±1e9
 
 std::uint64_t cell_key(double x, double y, double z) {
     std::uint64_t key = 0;
@@ -17,25 +19,25 @@ std::uint64_t cell_key(double x, double y, double z) {
     return key;
 }
 
-double largest_extent(const std::vector<Box>& boxes) {
-    double largest = 0.0;
+double cell_size(const std::vector<Box>& boxes, double reach_m, double mean_extent_m) {
+    double largest = 0.0, farthest = 0.0;
     for (const Box& box : boxes) {
-        const Vec3 extent = box.high_m - box.low_m;
+        const Vec3 extent = box.high_m - box.low_m, far = glm::max(glm::abs(box.low_m), glm::abs(box.high_m));
         largest = std::max({largest, extent.x, extent.y, extent.z});
+        farthest = std::max({farthest, far.x, far.y, far.z});
     }
-    return largest;
+    return std::max({2.0 * (reach_m + mean_extent_m), largest / kCellsAcrossLargest, kSmallestCell_m,
+                     kSmallestCellShare * farthest});
 }
 
 }  // namespace
 
 // Each box grows by half the reach on all sides and is entered in all cells it touches. Two grown boxes that meet do so
 // at the larger of their low corners, and the cell of that point alone reports the pair.
-const std::vector<std::pair<std::uint32_t, std::uint32_t>>& CloseBoxes::find(const std::vector<Box>& boxes,
-                                                                             double reach_m, double mean_extent_m) {
+void CloseBoxes::find(const std::vector<Box>& boxes, double reach_m, double mean_extent_m, const Visit& visit) {
     entries_.clear();
-    pairs_.clear();
-    if (!(reach_m > 0.0)) return pairs_;  // no gap is below 0; and boxes of standing drones would give cells of size 0
-    const double cell = std::max(2.0 * (reach_m + mean_extent_m), largest_extent(boxes) / kCellsAcrossLargest);
+    if (!(reach_m > 0.0)) return;  // no gap is below 0
+    const double cell = cell_size(boxes, reach_m, mean_extent_m);
     const Vec3 half(0.5 * reach_m);
     const auto low_cell = [&](const Box& box) { return glm::floor((box.low_m - half) / cell); };
     for (std::uint32_t i = 0; i < boxes.size(); ++i) {
@@ -46,8 +48,8 @@ const std::vector<std::pair<std::uint32_t, std::uint32_t>>& CloseBoxes::find(con
             }
         }
     }
-    std::ranges::sort(entries_);
-    entries_.erase(std::ranges::unique(entries_).begin(), entries_.end());
+    std::sort(entries_.begin(), entries_.end());
+    entries_.erase(std::unique(entries_.begin(), entries_.end()), entries_.end());
     for (std::size_t begin = 0, end = 0; begin < entries_.size(); begin = end) {
         while (end < entries_.size() && entries_[end].cell == entries_[begin].cell) ++end;
         for (std::size_t a = begin; a < end; ++a) {
@@ -56,12 +58,11 @@ const std::vector<std::pair<std::uint32_t, std::uint32_t>>& CloseBoxes::find(con
                 const Box& second = boxes[entries_[b].box];
                 if (first.gap(second) >= reach_m) continue;
                 const Vec3 meet = glm::max(low_cell(first), low_cell(second));
-                if (cell_key(meet.x, meet.y, meet.z) == entries_[a].cell)
-                    pairs_.emplace_back(entries_[a].box, entries_[b].box);
+                if (cell_key(meet.x, meet.y, meet.z) != entries_[a].cell) continue;
+                if (!visit(entries_[a].box, entries_[b].box)) return;
             }
         }
     }
-    return pairs_;
 }
 
 }  // namespace aerogram::exporter

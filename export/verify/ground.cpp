@@ -69,12 +69,29 @@ std::vector<Interval> standing_at(const RecordedDrone& drone, const Vec3& place)
     return found;
 }
 
+/// The ground under a position on it.
+std::optional<Vec3> ground_at(const Vec3& p) {
+    if (std::abs(p.z) > kOnGround_m) return std::nullopt;
+    return Vec3{p.x, p.y, 0.0};
+}
+
 }  // namespace
 
+std::optional<Vec3> home_place(const RecordedDrone& drone) {
+    return drone.home_m ? drone.home_m : ground_at(first_position(drone));
+}
+
+std::optional<Vec3> landing_place(const RecordedDrone& drone) {
+    return drone.land_m ? drone.land_m : ground_at(last_position(drone));
+}
+
 std::vector<Interval> grounded_intervals(const RecordedDrone& drone) {
-    std::vector<Interval> all = standing_at(drone, drone.home_m.value_or(first_position(drone)));
-    const std::vector<Interval> landed = standing_at(drone, drone.land_m.value_or(last_position(drone)));
-    all.insert(all.end(), landed.begin(), landed.end());
+    std::vector<Interval> all;
+    for (const std::optional<Vec3>& place : {home_place(drone), landing_place(drone)}) {
+        if (!place) continue;
+        const std::vector<Interval> there = standing_at(drone, *place);
+        all.insert(all.end(), there.begin(), there.end());
+    }
     std::ranges::sort(all, [](const Interval& a, const Interval& b) {
         return a.begin_s != b.begin_s ? a.begin_s < b.begin_s : a.end_s < b.end_s;
     });

@@ -16,7 +16,7 @@ namespace aerogram::exporter {
 struct Finding {
     std::string rule;                 ///< "separation", "speed_up", "acceleration", "altitude_max", "geofence", ...
     double limit = 0.0, worst = 0.0;  ///< SI
-    double allowance = 0.0;           ///< what the format's rounding may add (stated per format)
+    double allowance = 0.0;  ///< what the format's rounding may add (stated per format); of altitudes 1 mm more
     std::vector<std::size_t> drones;  ///< numbers from 1
     std::optional<double> time_s;
     bool held = true;
@@ -45,8 +45,9 @@ struct JudgeAgainst {
     std::optional<double> claimed_separation_m;   ///< separation is resolved at least up to here
 };
 /// Judges a show exactly, in continuous time, under the file's own interpolation rule. A rule holds when its worst
-/// value is within limit and allowance; allowances are the show's stated rounding, and separation has none. Waypoints
-/// without times are judged by their places only. The rules:
+/// value is within limit and allowance; allowances are the show's stated rounding, and separation has none; altitudes
+/// are judged to 1 mm more. A drone is on the ground, and its altitude counts, at the home and landing place that the
+/// show states; without them z = 0 is the ground. Waypoints without times are judged by their places only. The rules:
 ///  - separation, m, at least;
 ///  - speed_horizontal, speed_up, speed_down, m/s; acceleration, m/s²;
 ///  - velocity_jump, m/s: where pieces meet, and at the ends, where a drone must be at rest; position_jump, m;
@@ -71,8 +72,8 @@ struct VerifiedSeparation {
     double time_s = 0.0;
 };
 /// Smallest distance of any two drones at any instant while not both on the ground (export/verify/ground.hpp), on
-/// piecewise Bézier curves of any degree and knots. When all stay at least beyond_m apart, that is the lower bound, and
-/// attained is infinite.
+/// piecewise Bézier curves of any degree and knots. Distances within resolved_m of 0 are a lower bound of 0. When all
+/// stay at least beyond_m apart, that is the lower bound, and attained is infinite.
 ///
 /// @param downwash  >= 1.
 /// @param beyond_m  > 0; distances from here on are not resolved.

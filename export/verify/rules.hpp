@@ -12,6 +12,9 @@ namespace aerogram::exporter {
 
 /// Numbers this close count as equal: the verifier's own arithmetic, SI units. No allowance of a file.
 inline constexpr double kNumeric = 1e-6;
+/// Altitudes are judged to this on top of a file's rounding: over a straight chord between two points at a limit the
+/// earth's curve moves the height above home by up to a millimetre, which no vehicle flies to.
+inline constexpr double kAltitude_m = 1e-3;
 
 struct Rules {
     Limits limits;
@@ -47,9 +50,10 @@ struct Rules {
 /// Tracks out of order, colours out of range, a length that the pieces do not have; for people.
 [[nodiscard]] std::vector<std::string> track_problems(const RecordedShow& show);
 
-/// Where a drone is above its own home, as far as the show tells it: home, else the first position.
+/// From where a drone's altitudes count: its home, where none is stated z = 0 under its first position.
 [[nodiscard]] inline Vec3 home_of(const RecordedDrone& drone) {
-    return drone.home_m.value_or(first_position(drone));
+    const Vec3 first = first_position(drone);
+    return drone.home_m.value_or(Vec3{first.x, first.y, 0.0});
 }
 
 }  // namespace aerogram::exporter

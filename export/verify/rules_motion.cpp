@@ -12,13 +12,6 @@ double ground_speed(const Vec3& v) {
     return std::hypot(v.x, v.y);
 }
 
-/// The curve's derivative with respect to time.
-Timed rate(const Timed& on) {
-    Timed rate{derivative(on.curve), on.begin_s, on.end_s};
-    for (std::size_t i = 0; i <= rate.curve.degree; ++i) rate.curve.control[i] /= on.end_s - on.begin_s;
-    return rate;
-}
-
 /// Raises a largest value, kept as the smallest of its negative. The function must be convex, so that no point of the
 /// curve exceeds the largest control point.
 template <class Convex>

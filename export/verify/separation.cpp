@@ -106,8 +106,16 @@ struct Search {
     Slab slab;
     CloseBoxes close;
 
+    /// False once two drones meet as nearly as is resolved: then the bound is 0 and nothing worse can be found.
+    bool goes_on() {
+        if (run.stopped()) return false;
+        if (best.attained_m > best.resolved_m) return true;
+        best.lower_m = 0.0;
+        return false;
+    }
+
     void search(double begin_s, double end_s) {
-        if (run.stopped()) return;
+        if (!goes_on()) return;
         const SlabSize size = measure(shows, begin_s, end_s, boxes);
         const bool much = size.mean_extent_m > longest_extent_m ||
                           static_cast<double>(size.stretches) > kStretchesADrone * static_cast<double>(boxes.size());
@@ -118,11 +126,12 @@ struct Search {
             return;
         }
         cut(shows, begin_s, end_s, slab);
-        for (const auto& [i, j] : close.find(slab.boxes, best.lower_m, size.mean_extent_m)) {
-            if (slab.grounded[i] != 0 && slab.grounded[j] != 0) continue;
-            if (slab.boxes[i].gap(slab.boxes[j]) >= best.lower_m) continue;
+        close.find(slab.boxes, best.lower_m, size.mean_extent_m, [&](std::uint32_t i, std::uint32_t j) {
+            if (slab.grounded[i] != 0 && slab.grounded[j] != 0) return goes_on();
+            if (slab.boxes[i].gap(slab.boxes[j]) >= best.lower_m) return goes_on();
             bound_pair(slab, {i, j}, best);
-        }
+            return goes_on();
+        });
     }
 };
 

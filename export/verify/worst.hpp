@@ -39,6 +39,13 @@ struct Timed {
     double begin_s = 0.0, end_s = 0.0;
 };
 
+/// The curve's derivative with respect to time.
+inline Timed rate(const Timed& on) {
+    Timed rate{derivative(on.curve), on.begin_s, on.end_s};
+    for (std::size_t i = 0; i <= rate.curve.degree; ++i) rate.curve.control[i] /= on.end_s - on.begin_s;
+    return rate;
+}
+
 /// How exactly a minimum is wanted: bound >= attained - above while values are positive, and of values below zero,
 /// which break a rule anyway, to 1 % more.
 struct Tolerance {

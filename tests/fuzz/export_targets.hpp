@@ -9,6 +9,7 @@
 #include "export/manifest_json.hpp"
 #include "export/sha256.hpp"
 #include "export/trajectories_bin.hpp"
+#include "export/verify/judge.hpp"
 #include "export/zip.hpp"
 
 /// What the fuzz targets of the export readers do with any bytes: they are read or refused as invalid input, and what
@@ -27,6 +28,15 @@ bool read_or_refused(const Result<T>& result) {
     return result.ok();
 }
 
+/// Small shows are also searched for their closest pair, which must end in bounded time and memory.
+inline void check_separation(const RecordedShow& show) {
+    std::size_t pieces = 0;
+    for (const RecordedDrone& drone : show.drones) pieces += drone.pieces.size();
+    if (pieces > 2'000 || show.duration_s > 3'600.0) return;
+    const auto found = verify_separation(show, 1.0, 3.0, Run{});
+    if (read_or_refused(found)) insist(found->lower_bound_m <= found->attained_m);
+}
+
 inline void check_trajectories(std::string_view bytes) {
     const auto show = read_trajectories(bytes);
     if (!read_or_refused(show)) return;
@@ -38,6 +48,7 @@ inline void check_trajectories(std::string_view bytes) {
         }
         for (const Vec3& p : drone.controls_m) insist(is_finite(p));
     }
+    check_separation(*show);
 }
 
 inline void try_trajectories(std::string_view bytes) {

@@ -199,10 +199,11 @@ TEST(Judge, HorizontalMotionJustAtTheNavigationAltitudeIsLegal) {
         return show;
     };
     EXPECT_TRUE(judged(at_height(2.5)).held());
-    const Judgement judgement = judged(at_height(2.499));
+    EXPECT_TRUE(judged(at_height(2.4991)).held());  // altitudes are judged to a millimetre
+    const Judgement judgement = judged(at_height(2.4989));
     EXPECT_THAT(broken(judgement), ElementsAre("altitude_min_navigation"));
     EXPECT_NEAR(finding(judgement, "altitude_min_navigation").worst, 6.0, 1e-6);
-    RecordedShow rounded = at_height(2.499);
+    RecordedShow rounded = at_height(2.4989);
     rounded.rounding.position_m = 0.001;
     EXPECT_TRUE(judged(rounded).held());
 }
@@ -223,6 +224,39 @@ TEST(Judge, CeilingIsAboveTheDronesOwnHome) {
     EXPECT_NEAR(finding(judgement, "altitude_max").worst, 20.0, 2e-6);
     show.rounding.position_m = 0.1;
     EXPECT_TRUE(judged(show, limits({.ceiling_m = 19.9})).held());
+}
+
+// The planner certified a straight line between two points at the ceiling, the verifier refused it: over the line the
+// height above home differs by fractions of a millimetre. Both judge altitudes to 1 mm.
+TEST(Judge, AltitudesAreJudgedToAMillimetre) {
+    RecordedShow show = show_of({flight({0, 0, 0})});
+    EXPECT_TRUE(judged(show, limits({.ceiling_m = 20.0 - 0.0009})).held());
+    EXPECT_THAT(broken(judged(show, limits({.ceiling_m = 20.0 - 0.0011}))), ElementsAre("altitude_max"));
+    EXPECT_EQ(finding(judged(show), "altitude_max").allowance, 1e-3);
+
+    const geo::ShowFrame frame(geo::ShowOrigin{{35.0, 139.0, 40.0}, 20.0, {}});
+    const auto at_altitude = [&](const Vec3& under, double altitude_m) {
+        geo::Geodetic place = frame.to_geodetic(under);
+        place.height_m = frame.to_geodetic({0, 0, 0}).height_m + altitude_m;
+        return frame.to_show(place);
+    };
+    const Vec3 from = at_altitude({-30, 0, 0}, 20.0), to = at_altitude({40, 50, 0}, 20.0);
+    RecordedDrone drone;
+    add_smooth(drone, 60.0, {from.x, from.y, 0}, from);
+    add_smooth(drone, 60.0, from, to);
+    add_smooth(drone, 60.0, to, {to.x, to.y, 0});
+    drone.home_m = Vec3{from.x, from.y, 0};
+    show = show_of({drone});
+    show.origin = frame.origin();
+    EXPECT_TRUE(judged(show, limits({.min_navigation_altitude_m = 0.0, .ceiling_m = 20.0})).held());
+    EXPECT_TRUE(judged(show, limits({.min_navigation_altitude_m = 20.0})).held());
+}
+
+TEST(Judge, WithoutAStatedHomeAltitudesCountFromZero) {
+    RecordedShow show = show_of({polyline(10.0, {{0, 0, 30}, {0, 0, 50}, {0, 0, 30}})});
+    EXPECT_NEAR(finding(judged(show), "altitude_max").worst, 50.0, 2e-6);
+    show.drones[0].home_m = Vec3{0, 0, 30};
+    EXPECT_NEAR(finding(judged(show), "altitude_max").worst, 20.0, 2e-6);
 }
 
 TEST(Judge, EarthsCurvatureCountsInAltitudes) {

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <limits>
 #include <numeric>
+#include <optional>
 
 #include "export/verify/ground.hpp"
 #include "export/verify/judge.hpp"
@@ -22,26 +23,24 @@ VerifiedSeparation separation(const RecordedShow& show, double downwash = 1.0, d
     return verify_separation(show, downwash, beyond_m, aerogram::Run{}).value();
 }
 
-/// Starts and ends at other heights than it flies, so that nobody counts as grounded on the way.
-bool excused(const std::vector<Interval>& a, const std::vector<Interval>& b, double t) {
-    const auto stands = [t](const std::vector<Interval>& all) {
-        return std::ranges::any_of(all, [t](const Interval& i) { return i.begin_s <= t && t <= i.end_s; });
+/// By hand: within 5 cm of a place where the drone is said to start or land.
+bool on_ground(const RecordedDrone& drone, const Vec3& at) {
+    const auto near = [&](const std::optional<Vec3>& place) {
+        return place && std::abs(at.z - place->z) <= 0.05 && std::hypot(at.x - place->x, at.y - place->y) <= 0.05;
     };
-    return stands(a) && stands(b);
+    return near(drone.home_m) || near(drone.land_m);
 }
 
 /// The smallest distance at `samples` instants of every pair, by nothing but position_at.
 double brute_force(const RecordedShow& show, double downwash, std::size_t samples) {
     double smallest = std::numeric_limits<double>::infinity();
-    std::vector<std::vector<Interval>> grounded;
-    for (const RecordedDrone& drone : show.drones) grounded.push_back(grounded_intervals(drone));
     for (std::size_t s = 0; s <= samples; ++s) {
         const double t = show.duration_s * static_cast<double>(s) / static_cast<double>(samples);
         std::vector<Vec3> at;
         for (const RecordedDrone& drone : show.drones) at.push_back(position_at(drone, t));
         for (std::size_t i = 0; i < at.size(); ++i) {
             for (std::size_t j = i + 1; j < at.size(); ++j) {
-                if (excused(grounded[i], grounded[j], t)) continue;
+                if (on_ground(show.drones[i], at[i]) && on_ground(show.drones[j], at[j])) continue;
                 smallest = std::min(smallest,
                                     std::hypot(at[i].x - at[j].x, at[i].y - at[j].y, (at[i].z - at[j].z) / downwash));
             }
@@ -179,6 +178,53 @@ TEST(VerifySeparation, StopIsHonoured) {
     EXPECT_EQ(result.error().code, ErrorCode::stopped);
 }
 
+// Two drones that hovered 0.3 m apart were once taken to stand on the ground, because they did so where they were first
+// (or last) seen.
+TEST(VerifySeparation, HoveringWhereTheRecordBeginsOrEndsIsFlying) {
+    const auto pair_of = [](const std::vector<Vec3>& way) {
+        std::vector<Vec3> beside = way;
+        for (Vec3& p : beside) p.x += 0.3;
+        return show_of({polyline(30.0, way), polyline(30.0, beside)});
+    };
+    const RecordedShow always = pair_of({{0, 0, 30}, {0, 0, 30}});
+    const RecordedShow first = pair_of({{0, 0, 30}, {0, 0, 30}, {0, 0, 20}});
+    const RecordedShow last = pair_of({{0, 0, 20}, {0, 0, 30}, {0, 0, 30}});
+    for (const RecordedShow& show : {always, first, last}) {
+        EXPECT_NEAR(separation(show).attained_m, 0.3, 1e-9);
+        EXPECT_NEAR(separation(show).lower_bound_m, 0.3, 1.1e-5);
+        EXPECT_NEAR(brute_force(show, 1.0, 100), 0.3, 1e-9);
+        RecordedShow stated = show;  // pads below them excuse nobody either
+        for (RecordedDrone& drone : stated.drones) {
+            drone.home_m = drone.land_m = Vec3{first_position(drone).x, first_position(drone).y, 0.0};
+        }
+        EXPECT_NEAR(separation(stated).attained_m, 0.3, 1e-9);
+    }
+    RecordedShow landed = always;  // on a roof that the file says is their place
+    for (RecordedDrone& drone : landed.drones) drone.home_m = first_position(drone);
+    EXPECT_EQ(separation(landed).lower_bound_m, 10.0);
+}
+
+// The grid's cells shrank with the distance found, until a box of ordinary size had more than can be counted.
+TEST(VerifySeparation, NextToNothingIsFoundInBoundedTimeAndMemory) {
+    for (const double apart_m : {1e-20, 1e-12, 1e-7, 0.0}) {
+        RecordedShow show = show_of({polyline(40.0, {{0, 1000, 30}, {0, 1000, 30}}),
+                                     polyline(40.0, {{apart_m, 1000, 30}, {apart_m, 1000, 30}})});
+        RecordedDrone busy;  // so many pieces that slabs are cut short, and searched one after another
+        for (int k = 0; k < 400; ++k) add_piece(busy, 0.1, {{500, 500, 30}});
+        show.drones.push_back(busy);
+        const VerifiedSeparation found = separation(show);
+        EXPECT_EQ(found.lower_bound_m, 0.0);
+        EXPECT_NEAR(found.attained_m, apart_m, 1e-12);
+        EXPECT_EQ(std::pair(found.first, found.second), std::pair(std::size_t{0}, std::size_t{1}));
+    }
+}
+
+TEST(VerifySeparation, FarthestCoordinatesAreSearchedToo) {
+    const RecordedShow show = show_of(
+        {polyline(40.0, {{1e8, -1e8, 30}, {1e8, -1e8, 30}}), polyline(40.0, {{1e8, -1e8, 30.5}, {1e8, -1e8, 30.5}})});
+    EXPECT_NEAR(separation(show).attained_m, 0.5, 1e-6);
+}
+
 /// Drones that wander in a box, each on its own knots. @param degree  0: a mix of all degrees.
 RecordedShow wandering(Random& random, std::size_t drones, std::size_t degree, double box_m, double length_s) {
     std::vector<RecordedDrone> all;
@@ -271,6 +317,14 @@ TEST(GroundedIntervals, AreFoundAtHomeAndAtTheLandingPlace) {
     EXPECT_NEAR(found[1].begin_s, 39.95, 0.005);
     EXPECT_GE(found[1].begin_s, 39.95);
     EXPECT_EQ(found[1].end_s, std::numeric_limits<double>::infinity());
+}
+
+TEST(GroundedIntervals, WithoutStatedPlacesZeroIsTheGround) {
+    EXPECT_EQ(grounded_intervals(polyline(10.0, {{4, 0, 0.04}, {4, 0, 10}, {4, 0, 10}})).size(), 1U);
+    EXPECT_EQ(grounded_intervals(polyline(10.0, {{4, 0, 10}, {4, 0, 10}, {4, 0, -0.04}})).size(), 1U);
+    EXPECT_TRUE(grounded_intervals(polyline(10.0, {{4, 0, 0.06}, {4, 0, 0.06}, {4, 0, 10}})).empty());
+    EXPECT_TRUE(grounded_intervals(polyline(10.0, {{4, 0, 10}, {4, 0, -0.06}, {4, 0, -0.06}})).empty());
+    EXPECT_TRUE(grounded_intervals(polyline(10.0, {{4, 0, 3}, {4, 0, 0}, {4, 0, 3}})).empty());
 }
 
 TEST(GroundedIntervals, AreEmptyWhenHomeIsElsewhere) {

@@ -95,10 +95,37 @@ TEST(CloseBoxes, AreThoseOfAllPairs) {
             }
         }
         CloseBoxes grid;
-        auto found = grid.find(boxes, reach, mean);
+        std::vector<std::pair<std::uint32_t, std::uint32_t>> found;
+        grid.find(boxes, reach, mean, [&](std::uint32_t i, std::uint32_t j) {
+            found.emplace_back(i, j);
+            return true;
+        });
         std::ranges::sort(found);
         EXPECT_EQ(found, expected);
     }
+}
+
+TEST(CloseBoxes, NextToNothingIsSearchedInFewCells) {
+    CloseBoxes grid;
+    const std::vector<Box> boxes{{Vec3(0, 1e8, 30), Vec3(0, 1e8, 30)},
+                                 {Vec3(1e-20, 1e8, 30), Vec3(40, 1e8, 30)},
+                                 {Vec3(-1e8, 0, 0), Vec3(1e8, 0, 0)}};
+    std::size_t visits = 0;
+    grid.find(boxes, 1e-19, 0.0, [&](std::uint32_t i, std::uint32_t j) {
+        EXPECT_EQ(i, 0U);
+        EXPECT_EQ(j, 1U);
+        ++visits;
+        return true;
+    });
+    EXPECT_EQ(visits, 1U);
+}
+
+TEST(CloseBoxes, VisitorEndsTheSearch) {
+    CloseBoxes grid;
+    std::size_t visits = 0;
+    grid.find(std::vector<Box>(10, Box{Vec3(1.0), Vec3(2.0)}), 1.0, 1.0,
+              [&](std::uint32_t, std::uint32_t) { return ++visits < 3; });
+    EXPECT_EQ(visits, 3U);
 }
 
 /// A fleet of one on random curves, sampled densely: what judge finds is never milder and never much worse.
