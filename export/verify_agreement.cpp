@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <limits>
 
-#include "export/verify/judge.hpp"
+#include "geo/limits.hpp"
 
 namespace aerogram::exporter {
 namespace {
@@ -17,6 +17,8 @@ constexpr double kMostSamples = 4e6;  ///< of all drones together
 constexpr double kFewestTimes = 50.0;
 /// Waypoints of a level leg and geodetic conversions at other heights agree to this.
 constexpr double kWaypointSlack_m = 0.005;
+// Origins are stored in whole 1e-7 degrees and millimetres; headings in all digits.
+constexpr double kOriginPlace_deg = 1e-7, kOriginHeight_m = 1e-3, kOriginHeading_deg = 1e-9;
 
 std::string shown(double value) {
     std::array<char, 40> text{};
@@ -91,14 +93,48 @@ Problems drones_disagree(const RecordedShow& show, const Manifest& manifest) {
         const std::string name = "drone " + std::to_string(d + 1);
         if (drone.name != listed.name)
             return {name + " is named \"" + drone.name + "\", in the manifest \"" + listed.name + "\""};
-        double off_m = drone.home_m ? glm::length(*drone.home_m - listed.pad_m) : 0.0;
+        const auto off_pad_m = [&](const std::optional<Vec3>& place) {
+            return place ? glm::length(*place - listed.pad_m) : 0.0;
+        };
+        double off_m = off_pad_m(drone.home_m);
         if (drone.home) {
             const geo::Geodetic pad = frame.to_geodetic(listed.pad_m);
             off_m = glm::length(frame.to_show({drone.home->latitude_deg, drone.home->longitude_deg, pad.height_m}) -
                                 listed.pad_m);
         }
         if (off_m > allowed_m) return {name + ": home is " + shown(off_m) + " m from its pad in the manifest"};
+        if (off_pad_m(drone.land_m) > allowed_m) {
+            return {name + ": its landing place is " + shown(off_pad_m(drone.land_m)) +
+                    " m from its pad in the manifest"};
+        }
     }
+    return {};
+}
+
+/// The way round from one angle to another, degrees, 0..180.
+double turn_deg(double a_deg, double b_deg) {
+    return std::abs(std::remainder(a_deg - b_deg, 360.0));
+}
+
+/// How an origin that a format holds in its own digits differs from the exact one, or empty. A heading that is off
+/// turns the whole show.
+std::string origin_off(const geo::ShowOrigin& held, const geo::ShowOrigin& exact) {
+    const auto differs = [](const char* what, double a, double b) {
+        std::array<char, 120> text{};
+        std::snprintf(text.data(), text.size(), "the origin's %s is %.10g, in the manifest %.10g", what, a, b);
+        return std::string(text.data());
+    };
+    const geo::Geodetic &a = held.ground, &b = exact.ground;
+    if (std::abs(a.latitude_deg - b.latitude_deg) > kOriginPlace_deg)
+        return differs("latitude", a.latitude_deg, b.latitude_deg);
+    if (turn_deg(a.longitude_deg, b.longitude_deg) > kOriginPlace_deg)
+        return differs("longitude", a.longitude_deg, b.longitude_deg);
+    if (std::abs(a.height_m - b.height_m) > kOriginHeight_m) return differs("height", a.height_m, b.height_m);
+    if (held.geoid_undulation_m != exact.geoid_undulation_m)
+        return differs("geoid undulation", held.geoid_undulation_m.value_or(0.0),
+                       exact.geoid_undulation_m.value_or(0.0));
+    if (turn_deg(held.heading_deg, exact.heading_deg) > kOriginHeading_deg)
+        return differs("heading", held.heading_deg, exact.heading_deg);
     return {};
 }
 
@@ -138,7 +174,15 @@ Problems disagreement_with_manifest(const RecordedShow& show, const Manifest& ma
     require(!show.certified || *show.certified == manifest.certified, "the certified mark");
     const auto format = std::ranges::find(manifest.formats, show.format, &ManifestFormat::name);
     require(format != manifest.formats.end() && equal(format->rounding, show.rounding), "the stated rounding");
-    if (show.format != "trajectories") return problems;
+    if (show.format != "trajectories") {
+        const std::string off = show.origin ? origin_off(*show.origin, manifest.origin) : std::string();
+        if (!off.empty()) problems.push_back(off);
+        if (show.format == "skyc") {
+            require(show.origin.has_value() == manifest.origin.geoid_undulation_m.has_value(),
+                    "whether there is a location");
+        }
+        return problems;
+    }
     require(show.show_hash.has_value(), "the show hash");
     require(show.title == manifest.show_name, "the show's name");
     require(show.limits && equal(*show.limits, manifest.limits), "a limit");
@@ -176,40 +220,6 @@ Problems disagreement_of_shows(const RecordedShow& reference, const RecordedShow
     if (worst_m <= allowed_m) return {};
     return {"drone " + std::to_string(worst_drone + 1) + " at " + shown(worst_s) + " s is " + shown(worst_m) +
             " m from where " + reference.format + " has it (" + shown(allowed_m) + " m may differ)"};
-}
-
-Result<Problems> disagreement_with_certificate(const CertificateRecord& certificate, const Manifest& manifest,
-                                               const RecordedShow& trajectories, const Run& run) {
-    Problems problems;
-    const auto require = [&](bool same, const std::string& what) {
-        if (!same) problems.push_back(what + " differs from the manifest");
-    };
-    require(certificate.show_name == manifest.show_name, "the show's name");
-    require(certificate.show_hash == manifest.show_hash, "the show hash");
-    require(certificate.certified == manifest.certified, "the certified mark");
-    double clock_s = 0.0;
-    for (const CertifiedAct& act : certificate.acts) {
-        const std::string name = "act \"" + act.name + "\"";
-        if (std::abs(act.start_s - clock_s) > kNumeric)
-            problems.push_back(name + " does not start where the one before ends");
-        clock_s = act.start_s + act.duration_s;
-        if (!act.min_separation_m) continue;
-        const double claim_m = *act.min_separation_m;
-        const double beyond_m = std::max(manifest.limits.min_separation_m, 1.01 * claim_m + kNumeric);
-        const auto found = verify_separation(trajectories, manifest.limits.downwash, beyond_m, run,
-                                             {.begin_s = act.start_s, .end_s = clock_s});
-        if (!found) return found.error();
-        if (claim_m > found->attained_m + kNumeric) {
-            problems.push_back(name + " claims a separation of " + shown(claim_m) + " m; drones " +
-                               std::to_string(found->first + 1) + " and " + std::to_string(found->second + 1) +
-                               " come to " + shown(found->attained_m) + " m at " + shown(found->time_s) + " s");
-        }
-        if (certificate.certified && !act.certified)
-            problems.push_back(name + " is not certified, the certificate says it is");
-    }
-    if (std::abs(clock_s - manifest.duration_s) > kNumeric)
-        problems.push_back("the acts do not last as long as the show");
-    return problems;
 }
 
 }  // namespace aerogram::exporter

@@ -14,7 +14,8 @@ namespace aerogram::exporter {
 using Problems = std::vector<std::string>;
 
 /// A format's show against what the manifest says: show hash, certified mark, drones with names and pads, stated
-/// rounding; trajectories also in limits, airspace, origin, endurance and length.
+/// rounding; trajectories also in limits, airspace, origin, endurance and length; others in the origin they hold, to
+/// its rounding (1e-7 degrees, 1 mm).
 [[nodiscard]] Problems disagreement_with_manifest(const RecordedShow& show, const Manifest& manifest);
 
 /// Two shows of one fleet: positions at evenly spread times (about 4 a second, fewer for large fleets) are within the
@@ -24,7 +25,9 @@ using Problems = std::vector<std::string>;
 [[nodiscard]] Problems disagreement_of_shows(const RecordedShow& reference, const RecordedShow& show,
                                              const Limits& limits, const geo::ShowOrigin& origin);
 
-/// The certificate against the manifest, and each act's claimed separation against what `trajectories` really has then.
+/// The certificate against the manifest, and each act's claims against what `trajectories` really do then: separation
+/// and the pair that is closest, speeds, acceleration, jerk, altitudes, margins. A claim may be milder than the truth,
+/// never better by more than rounding. (export/verify_certificate.cpp)
 /// Errors: stopped; invalid_input when the trajectories are not well-formed.
 Result<Problems> disagreement_with_certificate(const CertificateRecord& certificate, const Manifest& manifest,
                                                const RecordedShow& trajectories, const Run& run);

@@ -9,9 +9,9 @@
 #include "export/export_show.hpp"
 #include "export/files.hpp"
 #include "export/manifest_json.hpp"
-#include "export/sha256.hpp"
-#include "export/verify_agreement.hpp"
 #include "export/verify_show.hpp"
+#include "export/zip.hpp"
+#include "planner/motion/certificate.hpp"
 #include "tests/unit/export/fixed_show.hpp"
 #include "tests/unit/export/scratch_folder.hpp"
 
@@ -30,19 +30,28 @@ Verified verified(const fs::path& path) {
     return verify_path(path, PlainRun{}).value();
 }
 
-/// The fixed show with separations in its certificate that it has.
+/// The fixed show with the certificate that it deserves.
 planner::FlightPlan honest_show() {
     planner::FlightPlan plan = fixed::show();
-    for (std::size_t a = 0; a < plan.certificate.acts.size(); ++a) {
-        plan.certificate.acts[a].separation.lower_bound_m = 2.0 + 0.0625 * static_cast<double>(a);
+    const planner::Surroundings around{geo::ShowFrame(plan.origin), plan.airspace, plan.pads_m, plan.limits};
+    for (std::size_t a = 0; a < plan.acts.size(); ++a) {
+        planner::ActCertificate& act = plan.certificate.acts[a];
+        const std::string method = act.method, assignment = act.assignment;
+        act = planner::certify(plan.acts[a], around, PlainRun{}).value();
+        act.method = method;
+        act.assignment = assignment;
     }
     return plan;
 }
 
+void export_plan(const planner::FlightPlan& plan, const fs::path& folder, const std::vector<std::string>& formats) {
+    const auto exported = export_show(plan, folder, formats, false, PlainRun{});
+    ASSERT_TRUE(exported.ok()) << exported.error().message;
+}
+
 /// That show exported into a folder. @param formats  empty: all.
 void export_fixed(const fs::path& folder, const std::vector<std::string>& formats = {}) {
-    const auto exported = export_show(honest_show(), folder, formats, false, PlainRun{});
-    ASSERT_TRUE(exported.ok()) << exported.error().message;
+    export_plan(honest_show(), folder, formats);
 }
 
 std::vector<fs::path> files_in(const fs::path& folder) {
@@ -60,21 +69,6 @@ void rewrite_manifest(const fs::path& folder, Change change) {
     Manifest manifest = read_manifest(read_file(folder / kManifestName).value()).value();
     change(manifest);
     ASSERT_TRUE(write_file(folder / kManifestName, manifest_json(manifest)).ok());
-}
-
-/// Replaces text in a file and makes the manifest agree with its bytes.
-void forge(const fs::path& folder, const std::string& name, const std::string& from, const std::string& to) {
-    std::string bytes = read_file(folder / name).value();
-    const std::size_t at = bytes.find(from);
-    ASSERT_NE(at, std::string::npos);
-    bytes.replace(at, from.size(), to);
-    ASSERT_TRUE(write_file(folder / name, bytes).ok());
-    rewrite_manifest(folder, [&](Manifest& manifest) {
-        const auto file = std::ranges::find(manifest.files, name, &ManifestFile::path);
-        ASSERT_NE(file, manifest.files.end());
-        file->bytes = bytes.size();
-        file->sha256 = sha256_hex(bytes);
-    });
 }
 
 TEST(VerifyFolder, IntactExportHoldsAndEveryFormatIsJudged) {
@@ -198,13 +192,107 @@ TEST(VerifyFolder, ManifestsThatSayTooMuchAreCaught) {
                 Contains(HasSubstr("not listed in the manifest")));
 }
 
+/// What verify says of the show when act `act` of its certificate is changed.
+template <class Change>
+std::vector<std::string> problems_of_certificate(std::size_t act, Change change) {
+    const fixed::ScratchFolder scratch;
+    planner::FlightPlan plan = honest_show();
+    change(plan.certificate.acts.at(act));
+    export_plan(plan, scratch.path() / "show", {"trajectories"});
+    return verified(scratch.path() / "show").problems;
+}
+
+// Only separations were once compared: any speed, altitude or margin could be claimed.
 TEST(VerifyFolder, CertificateMayNotClaimMoreThanTheTrajectoriesHave) {
+    using planner::ActCertificate;
+    const std::string act = "certificate.json: act \"to B\" ";
+    const auto expect = [&](const std::string& problem, auto change) {
+        EXPECT_THAT(problems_of_certificate(3, change), ElementsAre(HasSubstr(act + problem)));
+    };
+    EXPECT_THAT(problems_of_certificate(3, [](ActCertificate&) {}), IsEmpty());
+    expect("claims speed_horizontal_mps = ", [](ActCertificate& c) { c.extremes.speed_horizontal_mps *= 0.8; });
+    expect("claims speed_up_mps = ", [](ActCertificate& c) { c.extremes.speed_up_mps *= 0.8; });
+    expect("claims speed_down_mps = ", [](ActCertificate& c) { c.extremes.speed_down_mps *= 0.8; });
+    expect("claims acceleration_mps2 = ", [](ActCertificate& c) { c.extremes.acceleration_mps2 *= 0.99; });
+    expect("claims jerk_mps3 = ", [](ActCertificate& c) { c.extremes.jerk_mps3 *= 0.99; });
+    expect("claims altitude_max_m = ", [](ActCertificate& c) { c.altitude_max_m -= 0.01; });
+    expect("claims altitude_min_m = ", [](ActCertificate& c) { c.altitude_min_m += 0.01; });
+    expect("claims geofence_margin_m = ", [](ActCertificate& c) { *c.geofence_margin_m *= 1.02; });
+    expect("claims audience_margin_m = ", [](ActCertificate& c) { *c.audience_margin_m *= 1.02; });
+    expect("claims obstacle_margin_m = ", [](ActCertificate& c) { *c.obstacle_margin_m *= 1.02; });
+    expect("requires a separation of 1.5 m; the limits require 1.55",
+           [](ActCertificate& c) { c.required_separation_m = 1.5; });
+    EXPECT_THAT(problems_of_certificate(1, [](ActCertificate& c) { c.separation.lower_bound_m += 0.1; }),
+                ElementsAre(HasSubstr("certificate.json: act \"to A\" claims a separation of ")));
+    // Milder than the truth is no lie.
+    EXPECT_THAT(problems_of_certificate(3,
+                                        [](ActCertificate& c) {
+                                            c.extremes = {9.0, 9.0, 9.0, 9.0, 90.0};
+                                            c.altitude_min_m = 0.0;
+                                            c.altitude_max_m = 90.0;
+                                            c.geofence_margin_m = c.audience_margin_m = c.obstacle_margin_m = 0.25;
+                                        }),
+                IsEmpty());
+}
+
+TEST(VerifyFolder, CertificatesClosestPairIsLookedAt) {
+    using planner::ActCertificate, planner::Encounter;
+    ASSERT_TRUE(honest_show().certificate.acts[1].separation.closest.has_value());
+    const std::string act = "certificate.json: act \"to A\" ";
+    const auto expect = [&](const std::string& problem, auto change) {
+        const auto problems = problems_of_certificate(1, [&](ActCertificate& c) { change(*c.separation.closest); });
+        EXPECT_THAT(problems, ElementsAre(HasSubstr(act + problem)));
+    };
+    expect("says that drones 1 and 2 are ", [](Encounter& e) { e.distance_m += 0.001; });
+    expect("says that drones 1 and 2 are ", [](Encounter& e) { e.time_s += 4.0; });
+    expect("says that drones 1 and 3 are ", [](Encounter& e) { e.second = DroneId(2); });
+    expect("names drones 1 and 1 as the closest of 3", [](Encounter& e) { e.second = DroneId(0); });
+    expect("names drones 1 and 10 as the closest of 3", [](Encounter& e) { e.second = DroneId(9); });
+    expect("names a closest pair at ", [](Encounter& e) { e.time_s += 40.0; });
+}
+
+// A show turned by a few degrees about its origin flies through the fence.
+TEST(VerifyFolder, OriginInAnyFormatIsTheManifests) {
     const fixed::ScratchFolder scratch;
     const fs::path folder = scratch.path() / "show";
-    export_fixed(folder, {"trajectories"});
-    forge(folder, "certificate.json", "\"min_separation_m\": 2.0625", "\"min_separation_m\": 6.0625");
-    EXPECT_THAT(verified(folder).problems,
-                ElementsAre(HasSubstr("certificate.json: act \"to A\" claims a separation of 6.062 m")));
+    export_fixed(folder, {"skyc"});
+    EXPECT_THAT(verified(folder).problems, IsEmpty());
+    const std::string intact = read_file(folder / kManifestName).value();
+    const auto problems_after = [&](auto change) {
+        rewrite_manifest(folder, change);
+        std::vector<std::string> problems = verified(folder).problems;
+        EXPECT_TRUE(write_file(folder / kManifestName, intact).ok());
+        return problems;
+    };
+    EXPECT_THAT(problems_after([](Manifest& m) { m.origin.heading_deg += 7.0; }),
+                ElementsAre(HasSubstr("show.skyc: the origin's heading is 20, in the manifest 27")));
+    EXPECT_THAT(problems_after([](Manifest& m) { m.origin.heading_deg += 0.001; }),
+                ElementsAre(HasSubstr("the origin's heading is 20, in the manifest 20.001")));
+    EXPECT_THAT(problems_after([](Manifest& m) { m.origin.heading_deg -= 360.0; }), IsEmpty());
+    EXPECT_THAT(problems_after([](Manifest& m) { m.origin.ground.latitude_deg += 2e-7; }),
+                ElementsAre(HasSubstr("the origin's latitude is 35.6586")));
+    EXPECT_THAT(problems_after([](Manifest& m) { m.origin.ground.longitude_deg -= 2e-7; }),
+                ElementsAre(HasSubstr("the origin's longitude is 139.7454")));
+    EXPECT_THAT(problems_after([](Manifest& m) { m.origin.ground.latitude_deg += 0.5e-7; }), IsEmpty());
+    EXPECT_THAT(problems_after([](Manifest& m) { m.origin.ground.height_m += 0.002; }),
+                ElementsAre(HasSubstr("the origin's height is ")));
+    EXPECT_THAT(problems_after([](Manifest& m) { m.origin.geoid_undulation_m.reset(); }),
+                Contains(HasSubstr("the origin's geoid undulation is 36.7")));
+}
+
+// In a folder nobody stands on the ground but at the pads of the manifest, whatever a file leaves out.
+TEST(VerifyFolder, FilesWithoutHomesAreJudgedByTheManifestsPads) {
+    const fixed::ScratchFolder scratch;
+    const fs::path folder = scratch.path() / "show";
+    export_fixed(folder, {"csv"});
+    EXPECT_TRUE(verified(folder).held());
+    rewrite_manifest(folder, [](Manifest& m) { m.drones[1].pad_m.z -= 3.0; });
+    const Verified moved = verified(folder);
+    ASSERT_EQ(moved.shows.size(), 1U);
+    const auto pads = std::ranges::find(moved.shows[0].findings, "pads", &Finding::rule);
+    ASSERT_NE(pads, moved.shows[0].findings.end());
+    EXPECT_FALSE(pads->held);
+    EXPECT_THAT(pads->drones, ElementsAre(2U));
 }
 
 TEST(VerifyFolder, BrokenLimitsAreFindings) {
@@ -238,6 +326,26 @@ TEST(VerifyFile, IsJudgedByWhatItHolds) {
     EXPECT_THAT(damaged.error().message, StartsWith(cut.string() + ": "));
 }
 
+// Two drones that hover 0.3 m apart for a minute passed: a CSV's first row was taken for its home.
+TEST(VerifyFile, CsvOfDronesThatOnlyHoverHasNoGround) {
+    const fixed::ScratchFolder scratch;
+    const fs::path file = scratch.path() / "csv.zip";
+    const auto csv = [](const std::string& place) {
+        std::string rows = "Time [msec],x [m],y [m],z [m],Red,Green,Blue\n";
+        for (int t = 0; t <= 60'000; t += 250) rows += std::to_string(t) + "," + place + ",0,0,0\n";
+        return rows;
+    };
+    const auto found_at = [&](const std::string& one, const std::string& other) {
+        const std::vector<FileBytes> entries{{"a.csv", csv(one)}, {"b.csv", csv(other)}};
+        EXPECT_TRUE(write_file(file, zip_bytes(entries).value()).ok());
+        return verified(file).shows.at(0);
+    };
+    const Judgement hovering = found_at("0,0,30", "0.3,0,30");
+    EXPECT_FALSE(hovering.held());
+    EXPECT_NEAR(hovering.closest_m, 0.3, 1e-9);
+    EXPECT_TRUE(found_at("0,0,0", "0.3,0,0").held());  // on the ground
+}
+
 TEST(VerifyFile, UnknownAndMissingFilesAreErrors) {
     const fixed::ScratchFolder scratch;
     const fs::path file = scratch.path() / "notes.txt";
@@ -248,43 +356,6 @@ TEST(VerifyFile, UnknownAndMissingFilesAreErrors) {
     const auto missing = verify_path(scratch.path() / "nothing", PlainRun{});
     ASSERT_FALSE(missing.ok());
     EXPECT_EQ(missing.error().code, ErrorCode::io);
-}
-
-/// One drone, 10 m along x in 10 s, 5 cm of rounding.
-RecordedShow line_show(double shift_m) {
-    RecordedShow show;
-    show.format = "lines";
-    show.duration_s = 10.0;
-    show.rounding.fit_m = 0.05;
-    RecordedDrone drone;
-    drone.controls_m = {{shift_m, 0, 10}, {10 + shift_m, 0, 10}};
-    drone.pieces = {{0.0, 10.0, 0, 1}};
-    show.drones = {drone};
-    return show;
-}
-
-TEST(DisagreementOfShows, IsBeyondTheSumOfTheRoundings) {
-    const geo::ShowOrigin origin{{35.0, 139.0, 40.0}, 20.0, {}};
-    EXPECT_THAT(disagreement_of_shows(line_show(0.0), line_show(0.0999), Limits{}, origin), IsEmpty());
-    EXPECT_THAT(disagreement_of_shows(line_show(0.0), line_show(0.11), Limits{}, origin),
-                ElementsAre(StartsWith("drone 1 at 0 s is 0.11 m from where lines has it (0.1 m may differ)")));
-}
-
-TEST(DisagreementOfShows, WaypointsLieOnTheTrajectory) {
-    const geo::ShowOrigin origin{{35.0, 139.0, 40.0}, 20.0, {}};
-    const geo::ShowFrame frame(origin);
-    RecordedShow reference = line_show(0.0), mission;
-    reference.drones[0].home_m = Vec3{0, 0, 0};
-    mission.timed = false;
-    RecordedDrone drone;
-    drone.home = frame.to_geodetic({0, 0, 0});
-    drone.home->height_m = 0.0;  // unknown to the format
-    drone.waypoints = {{frame.to_geodetic({10, 0, 10}), 10.0, 1.0, Waypoint::Kind::fly_to}};
-    mission.drones = {drone};
-    EXPECT_THAT(disagreement_of_shows(reference, mission, Limits{}, origin), IsEmpty());
-    mission.drones[0].waypoints[0].altitude_above_home_m = 10.2;
-    EXPECT_THAT(disagreement_of_shows(reference, mission, Limits{}, origin),
-                ElementsAre(StartsWith("drone 1: waypoint 1 is 0.2 m from where lines goes")));
 }
 
 }  // namespace
