@@ -8,26 +8,16 @@
 #include <vector>
 
 #include "export/record/recorded_show.hpp"
+#include "geo/random.hpp"
 
 /// Small shows for the tests of verify.
 namespace aerogram::exporter::testing {
 
-/// splitmix64: the tests' only source of chance.
-class Random {
+class Random : public aerogram::Random {
   public:
-    explicit Random(std::uint64_t seed) : state_(seed) {}
-    std::uint64_t next() {
-        std::uint64_t z = (state_ += 0x9E3779B97F4A7C15U);
-        z = (z ^ (z >> 30U)) * 0xBF58476D1CE4E5B9U;
-        z = (z ^ (z >> 27U)) * 0x94D049BB133111EBU;
-        return z ^ (z >> 31U);
-    }
-    double in(double low, double high) { return low + (high - low) * static_cast<double>(next() >> 11U) * 0x1.0p-53; }
+    using aerogram::Random::Random;
+    double in(double low, double high) { return between(low, high); }
     Vec3 in_box(const Vec3& low, const Vec3& high) { return {in(low.x, high.x), in(low.y, high.y), in(low.z, high.z)}; }
-    std::size_t below(std::size_t n) { return static_cast<std::size_t>(next() % n); }
-
-  private:
-    std::uint64_t state_;
 };
 
 /// Adds a piece that starts where the drone's pieces end (at 0 for the first).

@@ -152,7 +152,7 @@ TEST(AdjacencyProperty1, Connected) {
     for (std::uint64_t seed = 1; seed <= 60; ++seed) {
         SCOPED_TRACE(seed);
         Random random(seed);
-        Points points = random_points(1 + random.next() % 60, seed);
+        Points points = random_points(1 + random.bits() % 60, seed);
         if (seed % 3 == 1)
             for (Vec3& p : points) p.y *= std::pow(10.0, -static_cast<double>(seed % 12));
         if (seed % 3 == 2)
@@ -170,7 +170,7 @@ TEST(AdjacencyProperty2, PermutingPointsPermutesTheGraph) {
         Random random(seed);
         std::vector<std::uint32_t> to(points.size());
         std::iota(to.begin(), to.end(), 0U);
-        for (std::size_t i = to.size(); i-- > 1;) std::swap(to[i], to[random.next() % (i + 1)]);
+        for (std::size_t i = to.size(); i-- > 1;) std::swap(to[i], to[random.bits() % (i + 1)]);
         Points permuted(points.size());
         for (std::size_t i = 0; i < to.size(); ++i) permuted[to[i]] = points[i];
         Pairs expected;

@@ -6,26 +6,17 @@
 #include <utility>
 #include <vector>
 
+#include "geo/random.hpp"
 #include "geo/units.hpp"
 #include "planner/adjacency/adjacency.hpp"
 
 namespace aerogram::planner::testing {
 
-/// Splitmix64: the same numbers on every machine.
-class Random {
+class Random : public aerogram::Random {
   public:
-    explicit Random(std::uint64_t seed) : state_(seed) {}
-    std::uint64_t next() {
-        std::uint64_t z = (state_ += 0x9e3779b97f4a7c15ULL);
-        z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9ULL;
-        z = (z ^ (z >> 27U)) * 0x94d049bb133111ebULL;
-        return z ^ (z >> 31U);
-    }
-    double in(double low, double high) { return low + (high - low) * static_cast<double>(next() >> 11U) * 0x1p-53; }
+    using aerogram::Random::Random;
+    double in(double low, double high) { return between(low, high); }
     Vec3 in_box(double half) { return {in(-half, half), in(-half, half), in(-half, half)}; }
-
-  private:
-    std::uint64_t state_;
 };
 
 /// Turned about x, y, z in that order, then moved.

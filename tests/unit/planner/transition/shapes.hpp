@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "geo/random.hpp"
 #include "planner/transition/dense.hpp"
 #include "planner/transition/spectral.hpp"
 #include "planner/transition/turn.hpp"
@@ -15,20 +16,9 @@
 /// Formations, graphs and motions for the tests of this folder.
 namespace aerogram::planner::testing {
 
-/// splitmix64.
-class Random {
+class Random : public aerogram::Random {
   public:
-    explicit Random(std::uint64_t seed) : state_(seed) {}
-    std::uint64_t bits() {
-        std::uint64_t z = (state_ += 0x9e3779b97f4a7c15U);
-        z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9U;
-        z = (z ^ (z >> 27U)) * 0x94d049bb133111ebU;
-        return z ^ (z >> 31U);
-    }
-    double between(double low, double high) {
-        return low + (high - low) * static_cast<double>(bits() >> 11U) * 0x1.0p-53;
-    }
-    std::size_t below(std::size_t n) { return static_cast<std::size_t>(bits() % n); }
+    using aerogram::Random::Random;
     Vec3 in_cube(double half) { return {between(-half, half), between(-half, half), between(-half, half)}; }
     Vec3 direction() {
         for (;;) {
@@ -37,9 +27,6 @@ class Random {
             if (length > 0.1 && length <= 1.0) return v / length;
         }
     }
-
-  private:
-    std::uint64_t state_;
 };
 
 /// How often a property is tried; AEROGRAM_TEST_N scales it.
