@@ -78,7 +78,7 @@ inline std::vector<std::uint32_t> numbers(const std::vector<SlotId>& slot_of) {
 
 inline Points shuffled(Points points, std::uint64_t seed) {
     Random random(seed);
-    for (std::size_t i = points.size(); i-- > 1;) std::swap(points[i], points[random.next() % (i + 1)]);
+    for (std::size_t i = points.size(); i-- > 1;) std::swap(points[i], points[random.bits() % (i + 1)]);
     return points;
 }
 

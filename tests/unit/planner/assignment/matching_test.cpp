@@ -35,7 +35,7 @@ TEST(PriceLeaves, FindTheBestTwoOfAFullScanWhilePricesRise) {
                 second = std::max(second, std::min(best, value));
                 best = std::max(best, value);
             }
-            const auto offer = leaves.best(x, static_cast<std::uint32_t>(random.next() % targets.size()));
+            const auto offer = leaves.best(x, static_cast<std::uint32_t>(random.bits() % targets.size()));
             ASSERT_NEAR(offer.value, best, 1e-10);
             ASSERT_NEAR(offer.second, second, 1e-10);
             leaves.raise(offer.place, leaves.price(offer.place) + offer.value - offer.second + random.in(0.0, 1.0));
