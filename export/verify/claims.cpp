@@ -1,9 +1,12 @@
 #include "export/verify/claims.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <span>
+#include <utility>
 
 #include "export/verify/altitude.hpp"
 #include "export/verify/shapes.hpp"
@@ -11,7 +14,7 @@
 namespace aerogram::exporter {
 namespace {
 
-constexpr Tolerance kExact{1e-6, 1e-3};
+constexpr Tolerance kExact{}, kMargin{1e-6, 1e-3}, kSolid{1e-4, 1e-3};
 enum Order : std::size_t { position, velocity, acceleration, jerk, orders };
 
 /// One claim about one drone, written so that `of` must nowhere be below `least`.
@@ -21,6 +24,7 @@ struct Question {
     double claimed = 0.0, sign = 1.0, tolerance = 0.0;  ///< claimed values are sign times those of `of`
     std::function<double(const Vec3&)> of;
     std::function<double(const Bezier&)> bound_of;
+    Tolerance search = kExact;
 
     [[nodiscard]] double least() const { return sign * claimed - tolerance; }
 };
@@ -40,24 +44,33 @@ void ask_of_motion(const Rules& rules, const Claims& c, double shortest_s, std::
     const double speed = rules.rounding.speed_allowance_mps + kNumeric;
     const double change = rules.rounding.acceleration_allowance_mps2;
     const auto length = [](const Vec3& v) { return glm::length(v); };
-    all.push_back(nowhere_above("speed_horizontal_mps", velocity, c.speed_horizontal_mps, speed,
+    all.push_back(nowhere_above("max_speed_horizontal_mps", velocity, c.speed_horizontal_mps, speed,
                                 [](const Vec3& v) { return std::hypot(v.x, v.y); }));
-    all.push_back(nowhere_above("speed_up_mps", velocity, c.speed_up_mps, speed, [](const Vec3& v) { return v.z; }));
     all.push_back(
-        nowhere_above("speed_down_mps", velocity, c.speed_down_mps, speed, [](const Vec3& v) { return -v.z; }));
-    all.push_back(nowhere_above("acceleration_mps2", acceleration, c.acceleration_mps2, change + kNumeric, length));
+        nowhere_above("max_speed_up_mps", velocity, c.speed_up_mps, speed, [](const Vec3& v) { return v.z; }));
+    all.push_back(
+        nowhere_above("max_speed_down_mps", velocity, c.speed_down_mps, speed, [](const Vec3& v) { return -v.z; }));
+    all.push_back(nowhere_above("max_acceleration_mps2", acceleration, c.acceleration_mps2, change + kNumeric, length));
     // A jerk is the difference of two accelerations over a piece.
-    all.push_back(nowhere_above("jerk_mps3", jerk, c.jerk_mps3, 2.0 * change / shortest_s + kNumeric, length));
+    all.push_back(nowhere_above("max_jerk_mps3", jerk, c.jerk_mps3, 2.0 * change / shortest_s + kNumeric, length));
 }
 
+/// Exact bounds convert a point of each piece to the ellipsoid; wide ones that suffice save that.
 void ask_of_altitude(const Altitude& altitude, const Rules& rules, const Claims& c, std::vector<Question>& all) {
     const double tolerance = rules.axis_m() + kAltitude_m + kNumeric;
+    const double most = c.altitude_max_m + tolerance, least = c.altitude_min_m - tolerance;
     all.push_back({"altitude_max_m", position, c.altitude_max_m, -1.0, tolerance,
                    [altitude](const Vec3& p) { return -altitude.of(p); },
-                   [altitude](const Bezier& curve) { return -altitude.range(curve).high; }});
+                   [altitude, most](const Bezier& curve) {
+                       const double rough = altitude.rough(curve).high;
+                       return -(rough <= most ? rough : altitude.range(curve).high);
+                   }});
     all.push_back({"altitude_min_m", position, c.altitude_min_m, 1.0, tolerance,
                    [altitude](const Vec3& p) { return altitude.of(p); },
-                   [altitude](const Bezier& curve) { return altitude.range(curve).low; }});
+                   [altitude, least](const Bezier& curve) {
+                       const double rough = altitude.rough(curve).low;
+                       return rough >= least ? rough : altitude.range(curve).low;
+                   }});
 }
 
 Vec2 flat(const Vec3& p) {
@@ -71,20 +84,20 @@ void ask_of_margins(const Rules& rules, const Claims& c, std::vector<Question>& 
         !fence.empty() && c.geofence_margin_m.value_or(-1.0) >= 0.0) {
         all.push_back({"geofence_margin_m", position, *c.geofence_margin_m, 1.0, plane,
                        [&fence](const Vec3& p) { return inner_margin(fence, flat(p)); },
-                       [&fence](const Bezier& curve) { return inner_margin_bound(fence, curve); }});
+                       [&fence](const Bezier& curve) { return inner_margin_bound(fence, curve); }, kMargin});
     }
     if (c.audience_margin_m.value_or(-1.0) >= 0.0) {
         for (const geo::Polygon& area : rules.airspace.audience_m) {
             all.push_back({"audience_margin_m", position, *c.audience_margin_m, 1.0, plane,
                            [&area](const Vec3& p) { return -inner_margin(area, flat(p)); },
-                           [&area](const Bezier& curve) { return outer_margin_bound(area, curve); }});
+                           [&area](const Bezier& curve) { return outer_margin_bound(area, curve); }, kMargin});
         }
     }
     if (c.obstacle_margin_m.value_or(-1.0) >= 0.0) {
         for (const geo::Obstacle& solid : rules.airspace.obstacles) {
             all.push_back({"obstacle_margin_m", position, *c.obstacle_margin_m, 1.0, space,
                            [&solid](const Vec3& p) { return solid_margin(solid, p); },
-                           [&solid](const Bezier& curve) { return solid_margin_bound(solid, curve); }});
+                           [&solid](const Bezier& curve) { return solid_margin_bound(solid, curve); }, kSolid});
         }
     }
 }
@@ -98,7 +111,7 @@ std::span<const Piece> pieces_in(const RecordedDrone& drone, double begin_s, dou
     return {first, std::partition_point(first, drone.pieces.end(), before(end_s))};
 }
 
-/// What breaks the claims, or nearly so, of one drone; in the order of the questions.
+/// The claims that one drone breaks, in the order of the questions.
 std::vector<BrokenClaim> look_at_drone(const RecordedDrone& drone, std::size_t number, const Rules& rules,
                                        const Claims& claims) {
     const std::span<const Piece> pieces = pieces_in(drone, claims.begin_s, claims.end_s);
@@ -115,7 +128,7 @@ std::vector<BrokenClaim> look_at_drone(const RecordedDrone& drone, std::size_t n
         std::array<Timed, orders> on{Timed{curve_of(drone, piece), piece.start_s, piece.start_s + piece.duration_s}};
         for (std::size_t k = 1; k < orders; ++k) on[k] = rate(on[k - 1]);
         for (std::size_t q = 0; q < questions.size(); ++q)
-            minimise(on[questions[q].order], kExact, questions[q].of, questions[q].bound_of, worst[q]);
+            minimise(on[questions[q].order], questions[q].search, questions[q].of, questions[q].bound_of, worst[q]);
     }
     std::vector<BrokenClaim> broken;
     for (std::size_t q = 0; q < worst.size(); ++q) {

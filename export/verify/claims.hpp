@@ -22,15 +22,15 @@ struct Claims {
 
 /// What a drone really has at an instant, and no claim allows.
 struct BrokenClaim {
-    std::string what;  ///< "speed_up_mps", ...
+    std::string what;  ///< as certificate.json names it, "max_speed_up_mps"
     double claimed = 0.0, found = 0.0;
     std::size_t drone = 0;  ///< 0-based
     double time_s = 0.0;
 };
 
 /// The worst instance of each claim that does not hold by more than the show's rounding and the verifier's arithmetic
-/// (altitudes: 1 mm more); empty: all hold. Pieces belong to the stretch in which their middle lies. Negative margins
-/// claim nothing.
+/// (altitudes: 1 mm more; obstacles: 0.1 mm more); empty: all hold. Pieces belong to the stretch in which their middle
+/// lies. Negative margins claim nothing.
 /// @param show  well-formed and timed.
 /// @param rules  airspace, frame and rounding; limits are not looked at.
 [[nodiscard]] std::vector<BrokenClaim> broken_claims(const RecordedShow& show, const Rules& rules, const Claims& claims,

@@ -210,11 +210,11 @@ TEST(VerifyFolder, CertificateMayNotClaimMoreThanTheTrajectoriesHave) {
         EXPECT_THAT(problems_of_certificate(3, change), ElementsAre(HasSubstr(act + problem)));
     };
     EXPECT_THAT(problems_of_certificate(3, [](ActCertificate&) {}), IsEmpty());
-    expect("claims speed_horizontal_mps = ", [](ActCertificate& c) { c.extremes.speed_horizontal_mps *= 0.8; });
-    expect("claims speed_up_mps = ", [](ActCertificate& c) { c.extremes.speed_up_mps *= 0.8; });
-    expect("claims speed_down_mps = ", [](ActCertificate& c) { c.extremes.speed_down_mps *= 0.8; });
-    expect("claims acceleration_mps2 = ", [](ActCertificate& c) { c.extremes.acceleration_mps2 *= 0.99; });
-    expect("claims jerk_mps3 = ", [](ActCertificate& c) { c.extremes.jerk_mps3 *= 0.99; });
+    expect("claims max_speed_horizontal_mps = ", [](ActCertificate& c) { c.extremes.speed_horizontal_mps *= 0.8; });
+    expect("claims max_speed_up_mps = ", [](ActCertificate& c) { c.extremes.speed_up_mps *= 0.8; });
+    expect("claims max_speed_down_mps = ", [](ActCertificate& c) { c.extremes.speed_down_mps *= 0.8; });
+    expect("claims max_acceleration_mps2 = ", [](ActCertificate& c) { c.extremes.acceleration_mps2 *= 0.99; });
+    expect("claims max_jerk_mps3 = ", [](ActCertificate& c) { c.extremes.jerk_mps3 *= 0.99; });
     expect("claims altitude_max_m = ", [](ActCertificate& c) { c.altitude_max_m -= 0.01; });
     expect("claims altitude_min_m = ", [](ActCertificate& c) { c.altitude_min_m += 0.01; });
     expect("claims geofence_margin_m = ", [](ActCertificate& c) { *c.geofence_margin_m *= 1.02; });
