@@ -11,7 +11,7 @@ namespace {
 // 1980-01-01 00:00:00, the earliest date a zip can hold.
 constexpr zip_uint16_t kDosTime = 0, kDosDate = (0U << 9U) | (1U << 5U) | 1U;
 constexpr zip_uint32_t kRegularFile = 0100644U << 16U;  // Unix mode, in the upper half
-constexpr zip_uint32_t kDeflateLevel = 6;
+constexpr zip_uint32_t kDeflateLevel = 4;               ///< a third of the time of level 6, files 4 % larger
 constexpr std::size_t kBombWorthy = std::size_t{1} << 20;
 
 /// zip_error_t that ends itself.
