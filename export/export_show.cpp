@@ -205,6 +205,51 @@ Manifest manifest_of(const std::vector<Job>& jobs, const planner::FlightPlan& pl
     return m;
 }
 
+/// Replacing a folder deletes what is in it: only a show of ours with nothing else in it may be replaced.
+Status check_replaceable(const fs::path& destination) {
+    std::error_code failure;
+    if (!fs::is_directory(destination, failure) || fs::is_empty(destination, failure)) return Done{};
+    const auto keep = [&](const std::string& why) {
+        return invalid(destination.string() + ": " + why + "; name another folder, or remove it");
+    };
+    const Result<std::string> bytes = read_file(destination / kManifestName);
+    const Result<Manifest> manifest = bytes ? read_manifest(*bytes) : Result<Manifest>(bytes.error());
+    if (!manifest) return keep("exists and is no show folder written by aerogram");
+    for (fs::recursive_directory_iterator entry(destination, failure), end; !failure && entry != end;
+         entry.increment(failure)) {
+        if (entry->is_directory(failure) && !entry->is_symlink(failure)) continue;
+        const std::string path = entry->path().lexically_relative(destination).generic_string();
+        const bool ours = path == kManifestName ||
+                          std::ranges::find(manifest->files, path, &ManifestFile::path) != manifest->files.end();
+        if (!ours) return keep("holds " + path + ", which aerogram did not write");
+    }
+    if (failure) return Error{ErrorCode::io, destination.string() + ": " + failure.message()};
+    return Done{};
+}
+
+/// Untimed waypoints that break a limit between them (a straight leg through an obstacle that the flown curve avoids)
+/// are no fault of the plan: unless asked for by name, they are left out with the reason.
+void leave_out_broken_waypoints(std::vector<Job>& jobs, std::span<const std::string> asked, const fs::path& folder) {
+    for (Job& job : jobs) {
+        const Judgement& judgement = job.exported.judgement;
+        const bool named = std::ranges::find(asked, job.exported.name) != asked.end();
+        if (named || !job.exported.skipped.empty() || judgement.separation_claimed || judgement.held()) continue;
+        const auto broken = std::ranges::find(judgement.findings, false, &Finding::held);
+        job.exported.skipped =
+            "straight legs between its waypoints would break a limit" +
+            (broken == judgement.findings.end() ? "" : " (" + describe(job.exported.name, *broken) + ")");
+        std::error_code ignored;
+        for (const std::string& path : job.exported.files) {
+            fs::remove(folder / path, ignored);
+            fs::remove((folder / path).parent_path(), ignored);  // only once it is empty
+        }
+        job.exported.files.clear();
+        job.files.clear();
+        job.rounding = {};
+        job.exported.judgement = {};
+    }
+}
+
 /// Certificate and manifest, the manifest last; then the swap.
 Status seal_folder(StagedFolder& folder, const std::vector<Job>& jobs, const planner::FlightPlan& plan,
                    const Seal& seal, const Run& run) {
@@ -230,10 +275,12 @@ Result<ExportedShow> export_show(const planner::FlightPlan& plan, const fs::path
     if (!jobs) return jobs.error();
     Seal seal{show_hash(plan), plan.certificate.certified()};
     if (!seal.certified && !best_effort) return Error{ErrorCode::infeasible, "the plan is not certified"};
+    if (const Status replaceable = check_replaceable(destination); !replaceable) return replaceable.error();
     Result<StagedFolder> folder = StagedFolder::beside(destination);
     if (!folder) return folder.error();
 
     if (const auto error = write_and_check(*jobs, plan, seal, folder->path(), run)) return *error;
+    if (seal.certified) leave_out_broken_waypoints(*jobs, format_names, folder->path());
     const std::string wrong = complaints(*jobs);
     if (!wrong.empty() && !best_effort) {
         return Error{ErrorCode::infeasible, "the written files break limits that the plan holds:\n" + wrong};

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <optional>
 
 #include "export/certificate_json.hpp"
 #include "export/files.hpp"
 #include "export/format.hpp"
+#include "export/sha256.hpp"
 #include "export/verify_agreement.hpp"
 #include "export/verify_folder.hpp"
 
@@ -21,19 +23,55 @@ Error named(const std::string& place, const Error& error) {
     return {error.code, place + ": " + error.message};
 }
 
+/// The manifest of the show folder that a file lies in, when it lists the file.
+struct Surrounding {
+    Manifest manifest;
+    bool same_bytes = false;
+};
+std::optional<Surrounding> manifest_around(const fs::path& path, const std::string& bytes) {
+    std::error_code failure;
+    const fs::path file = fs::absolute(path, failure);
+    for (const fs::path& folder : {file.parent_path(), file.parent_path().parent_path()}) {
+        const auto text = read_file(folder / kManifestName);
+        if (!text) continue;
+        auto manifest = read_manifest(*text);
+        if (!manifest) continue;
+        const auto listed =
+            std::ranges::find(manifest->files, file.lexically_relative(folder).generic_string(), &ManifestFile::path);
+        if (listed == manifest->files.end()) continue;
+        const bool same = listed->sha256 == sha256_hex(bytes);
+        return Surrounding{std::move(*manifest), same};
+    }
+    return std::nullopt;
+}
+
+void take_limits(RecordedShow& show, const Manifest& manifest) {
+    show.limits = manifest.limits;
+    show.airspace = manifest.airspace;
+    show.origin = manifest.origin;
+    show.endurance_s = manifest.endurance_s;
+}
+
 Result<Verified> verify_file(const fs::path& path, const Run& run) {
     auto bytes = read_file(path);
     if (!bytes) return bytes.error();
     const std::string name = path.filename().generic_string();
     const Format* format = recognise(name, *bytes);
     if (format == nullptr) return Error{ErrorCode::invalid_input, path.string() + ": not a format that can be read"};
+    const auto around = manifest_around(path, *bytes);
     const std::array files{FileBytes{name, std::move(*bytes)}};
-    const auto show = format->read(files);
+    auto show = format->read(files);
     if (!show) return named(path.string(), show.error());
+    if (around) take_limits(*show, around->manifest);
     auto judgement = judge(*show, {}, run);
     if (!judgement)
         return judgement.error().code == ErrorCode::stopped ? judgement.error()
                                                             : named(path.string(), judgement.error());
+    if (around) judgement->limits_from = "the manifest beside it";
+    if (around && !around->same_bytes)
+        judgement->problems.emplace_back("its SHA-256 differs from the manifest beside it");
+    if (!show->certified.value_or(true))
+        judgement->problems.emplace_back("the file says that this show is not certified");
     return Verified{{std::move(*judgement)}, {}};
 }
 
@@ -63,6 +101,7 @@ class FolderCheck {
         if (const Status done = check_certificate(); !done) return done.error();
         if (verified_.shows.empty() && verified_.problems.empty())
             problem(std::string(kManifestName), "lists nothing that flies");
+        if (!manifest_.certified) problem(std::string(kManifestName), "says that this show is not certified");
         if (run_.stopped()) return stopped_error();
         return std::move(verified_);
     }
@@ -114,10 +153,7 @@ class FolderCheck {
     }
 
     Status judge_against_manifest(RecordedShow show, const Format& format, const std::string& path) {
-        show.limits = manifest_.limits;
-        show.airspace = manifest_.airspace;
-        show.origin = manifest_.origin;
-        show.endurance_s = manifest_.endurance_s;
+        take_limits(show, manifest_);
         const geo::ShowFrame frame(manifest_.origin);
         for (std::size_t d = 0; d < std::min(show.drones.size(), manifest_.drones.size()); ++d) {
             RecordedDrone& drone = show.drones[d];

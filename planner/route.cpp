@@ -105,7 +105,8 @@ Result<Route> build_route(const Mission& mission, const Run& run) {
         if (!assignment) {
             const Error& error = assignment.error();
             if (error.code == ErrorCode::stopped) return error;
-            return Error{error.code, mission.at(keyframe.arrive.line, keyframe_key(k) + ".arrive: " + error.message)};
+            return Error{ErrorCode::invalid_input,
+                         mission.at(keyframe.arrive.line, keyframe_key(k) + ".arrive: " + error.message)};
         }
         Stop stop;
         stop.keyframe.name = keyframe.name;

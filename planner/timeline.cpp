@@ -160,7 +160,6 @@ std::vector<Tracks> build_tracks(const std::vector<PlannedKeyframe>& keyframes, 
             add_key(keys, {to_tick(keyframe.stands_to_ms), color, true});
         }
         add_key(keys, {to_tick(over_pad_ms), Rgb{}, false});
-        tracks[d].yaw = {{0, 0.0}};
     }
     return tracks;
 }

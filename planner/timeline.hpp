@@ -21,7 +21,8 @@ struct Timeline {
 Result<Timeline> build_timeline(const Mission& mission, const Route& route, const std::vector<Leg>& legs,
                                 std::vector<LegMotion> motions);
 
-/// Lamps: dark on the ground, each slot's colour while its formation stands, fading on the way; noses along show +y.
+/// Lamps: dark on the ground, each slot's colour while its formation stands, fading on the way. No yaw keys: noses
+/// along show +y.
 std::vector<Tracks> build_tracks(const std::vector<PlannedKeyframe>& keyframes, const std::vector<Act>& acts,
                                  std::size_t drones);
 

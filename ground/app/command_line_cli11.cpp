@@ -28,7 +28,8 @@ std::variant<CommandLine, Farewell> parse_command_line(int argc, const char* con
     CommandLine line;
     line.threads = std::max(1U, std::thread::hardware_concurrency());
     CLI::App app(kIntroduction, "aerogram");
-    app.set_version_flag("--version", std::string(exporter::kProgramName) + " " + std::string(exporter::kProgramVersion));
+    app.set_version_flag("--version",
+                         std::string(exporter::kProgramName) + " " + std::string(exporter::kProgramVersion));
     app.require_subcommand(1);
     app.fallthrough();
     app.add_flag("--json", line.json, "print one machine-readable object on stdout; messages go to stderr");
@@ -67,6 +68,7 @@ std::variant<CommandLine, Farewell> parse_command_line(int argc, const char* con
         const int status = app.exit(error, out, wrong) == 0 ? kDone : kBadInput;
         return Farewell{out.str() + wrong.str(), status};
     }
+    for (std::string& format : plan.formats) format = CLI::detail::trim_copy(format);
     if (*plan_app) line.command = plan;
     if (*verify_app) line.command = verify;
     if (*inspect_app) line.command = inspect;

@@ -17,9 +17,10 @@ class Console {
 
     void progress(std::string_view stage, double fraction);
     void error(std::string_view message);
+    /// Takes the progress line away, before an answer is printed.
+    void clear_line();
 
   private:
-    void clear_line();
     bool quiet_, terminal_;
     bool line_shown_ = false;
     std::string stage_;

@@ -1,4 +1,5 @@
 #include <array>
+#include <cmath>
 #include <iostream>
 #include <sstream>
 
@@ -75,8 +76,13 @@ std::string drones_text(const RecordedShow& show, const std::vector<double>& at_
 }  // namespace
 
 int run_inspect(const InspectCommand& command, const Session& session) {
+    for (const double t_s : command.at_s) {
+        if (!std::isfinite(t_s))
+            return report_error({ErrorCode::invalid_input, "--at: must be a time in seconds"}, session);
+    }
     const auto show = read_any(command.file);
     if (!show) return report_error(show.error(), session);
+    session.console.clear_line();
     if (session.json) {
         std::cout << inspect_answer(*show, command.at_s);
     } else {

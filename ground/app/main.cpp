@@ -1,7 +1,10 @@
+#include <algorithm>
 #include <exception>
 #include <iostream>
 #include <new>
+#include <string_view>
 
+#include "ground/app/answers.hpp"
 #include "ground/app/command_line.hpp"
 #include "ground/app/commands.hpp"
 #include "ground/app/exit_status.hpp"
@@ -27,6 +30,11 @@ int dispatch(const CommandLine& line) {
     return run_new(std::get<NewCommand>(line.command), session);
 }
 
+/// For arguments that could not be parsed: --json is honoured all the same.
+bool asks_for_json(int argc, char** argv) {
+    return std::any_of(argv, argv + argc, [](const char* word) { return std::string_view(word) == "--json"; });
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -34,6 +42,9 @@ int main(int argc, char** argv) {
         const auto parsed = parse_command_line(argc, argv);
         if (const auto* farewell = std::get_if<Farewell>(&parsed)) {
             (farewell->status == kDone ? std::cout : std::cerr) << farewell->text;
+            if (farewell->status != kDone && asks_for_json(argc, argv)) {
+                std::cout << error_answer({ErrorCode::invalid_input, farewell->text}, farewell->status);
+            }
             return farewell->status;
         }
         return dispatch(std::get<CommandLine>(parsed));

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <iostream>
 
 #include "export/files.hpp"
@@ -7,6 +8,11 @@
 #include "planner/mission/mission_template.hpp"
 
 namespace aerogram::ground {
+namespace {
+
+constexpr std::size_t kLongestName = 200;
+
+}  // namespace
 
 int report_error(const Error& error, const Session& session) {
     session.console.error(error.message);
@@ -18,10 +24,17 @@ int report_error(const Error& error, const Session& session) {
 int run_new(const NewCommand& command, const Session& session) {
     std::filesystem::path file = command.name;
     if (file.extension() != ".toml") file += ".toml";
-    if (file.stem().empty()) {
-        return report_error({ErrorCode::invalid_input, command.name + ": a mission needs a name"}, session);
+    const std::string stem = file.stem().string();
+    const bool plain =
+        std::ranges::none_of(stem, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; });
+    if (stem.empty() || stem.front() == '.' || !plain || stem.size() > kLongestName) {
+        return report_error({ErrorCode::invalid_input,
+                             "\"" + command.name + "\": a mission's name is 1 to " + std::to_string(kLongestName) +
+                                 " characters, none of them a control character, the first no dot"},
+                            session);
     }
-    if (std::filesystem::exists(file)) {
+    std::error_code unreachable;  // then writing says why
+    if (std::filesystem::exists(file, unreachable)) {
         return report_error({ErrorCode::invalid_input, file.string() + ": is there already; choose another name"},
                             session);
     }

@@ -63,8 +63,8 @@ std::string limits_lines(const FlightPlan& plan) {
 
 std::string summary(const FlightPlan& plan, const exporter::ExportedShow& shown, const std::filesystem::path& out) {
     std::ostringstream text;
-    text << plan.name << ": " << plan.drones() << " drones, " << plan.keyframes.size() << " keyframes, "
-         << decimals(seconds_from_ms(plan.duration_ms()), 1) << " s\n";
+    text << plan.name << ": " << counted(plan.drones(), "drone") << ", " << counted(plan.keyframes.size(), "keyframe")
+         << ", " << decimals(seconds_from_ms(plan.duration_ms()), 1) << " s\n";
     text << (shown.certified ? "certified      every act holds every limit in continuous time\n"
                              : "NOT CERTIFIED  do not fly; see certificate.json\n");
     text << separation_line(plan) << limits_lines(plan);
@@ -87,6 +87,13 @@ std::string summary(const FlightPlan& plan, const exporter::ExportedShow& shown,
     return text.str();
 }
 
+void tell_violations(const FlightPlan& plan, Console& console) {
+    for (const std::string& violation : plan.certificate.violations) console.error("not certified: " + violation);
+    for (const ActCertificate& act : plan.certificate.acts) {
+        for (const std::string& violation : act.violations) console.error("not certified: " + violation);
+    }
+}
+
 }  // namespace
 
 int run_plan(const PlanCommand& command, const Session& session) {
@@ -97,6 +104,8 @@ int run_plan(const PlanCommand& command, const Session& session) {
     if (!plan) return report_error(plan.error(), session);
     auto shown = exporter::export_show(*plan, out, command.formats, command.best_effort, session.run);
     if (!shown) return report_error(shown.error(), session);
+    session.console.clear_line();
+    if (!shown->certified) tell_violations(*plan, session.console);
     if (session.json) {
         std::cout << plan_answer(*plan, *shown, out);
     } else if (!session.quiet) {

@@ -20,17 +20,20 @@ std::string finding_line(const Finding& finding) {
     std::ostringstream line;
     line << "    " << (finding.held ? "ok      " : "BROKEN  ") << std::left << std::setw(26) << finding.rule
          << " worst " << decimals(finding.worst, 3) << ", limit " << decimals(finding.limit, 3);
-    if (finding.allowance >= kShownAllowance) line << " + " << decimals(finding.allowance, 3) << " for the format's rounding";
+    if (finding.allowance >= kShownAllowance)
+        line << " + " << decimals(finding.allowance, 3) << " for the format's rounding";
     if (!finding.drones.empty()) line << ", " << drones_in_words(finding.drones);
     if (finding.time_s) line << " at " << decimals(*finding.time_s, 2) << " s";
     return line.str() + "\n";
 }
 
-std::string judgement_text(const Judgement& judgement) {
+std::string judgement_text(const Judgement& judgement, bool only_broken = false) {
     std::string text = "  " + judgement.format + ": " + (judgement.held() ? "holds" : "BROKEN") + " (limits from " +
                        judgement.limits_from + ")\n";
     if (!judgement.separation_claimed) text += "    untimed waypoints: no separation is claimed\n";
-    for (const Finding& finding : judgement.findings) text += finding_line(finding);
+    for (const Finding& finding : judgement.findings) {
+        if (!finding.held || !only_broken) text += finding_line(finding);
+    }
     for (const std::string& problem : judgement.problems) text += "    BROKEN  " + problem + "\n";
     return text;
 }
@@ -46,6 +49,7 @@ int run_verify(const VerifyCommand& command, const Session& session) {
         held = held && verified->held();
         all.emplace_back(path, std::move(*verified));
     }
+    session.console.clear_line();
     if (session.json) {
         std::cout << verify_answer(all);
     } else if (!session.quiet) {
@@ -57,6 +61,9 @@ int run_verify(const VerifyCommand& command, const Session& session) {
     } else {
         for (const auto& [path, verified] : all) {
             for (const std::string& problem : verified.problems) session.console.error(problem);
+            for (const Judgement& judgement : verified.shows) {
+                if (!judgement.held()) session.console.error(path.string() + "\n" + judgement_text(judgement, true));
+            }
         }
     }
     return held ? kDone : kCannotBeFlown;

@@ -13,6 +13,10 @@ std::string decimals(double value, int digits) {
     return text.str();
 }
 
+std::string counted(std::size_t count, const std::string& what) {
+    return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
 std::string drones_in_words(const std::vector<std::size_t>& numbers) {
     if (numbers.empty()) return "";
     std::string text = numbers.size() == 1 ? "drone " : "drones ";

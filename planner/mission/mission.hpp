@@ -21,12 +21,12 @@ namespace aerogram::planner {
 
 enum class TextStyle { stroke, outline, fill, solid };
 struct TextSource {
-    std::string text;              ///< UTF-8, may hold '\n'
+    std::string text;  ///< UTF-8, may hold '\n'
     std::string font = "stroke";
     TextStyle style = TextStyle::stroke;
 };
 struct CsvSource {
-    std::filesystem::path file;    ///< resolved against the mission's folder
+    std::filesystem::path file;  ///< resolved against the mission's folder
 };
 enum class ShapeKind { line, grid, circle, sphere, helix };
 struct ShapeSource {
@@ -36,8 +36,8 @@ struct ShapeSource {
 };
 using Source = std::variant<TextSource, CsvSource, ShapeSource>;
 
-/// Size along the formation's own axes before rotation; absent components follow the aspect, all absent: the smallest size
-/// that holds the formation spacing. Flat sources use width (x) and height (z).
+/// Size along the formation's own axes before rotation; absent components follow the aspect, all absent: the smallest
+/// size that holds the formation spacing. Flat sources use width (x) and height (z).
 struct Size {
     std::optional<double> width_m, depth_m, height_m;  ///< x, y, z
 };
@@ -47,10 +47,10 @@ struct Part {
     Source source;
     Size size;
     Vec3 center_m{};
-    Vec3 rotate_rad{};                  ///< about x, y, z in that order, counter-clockwise seen from the axis' tip
-    std::optional<Rgb> color;           ///< absent: the source's own, else white
-    std::size_t drones = 0;             ///< resolved: all parts of a keyframe sum to the fleet
-    std::string group;                  ///< the group whose drones fly here; empty: anyone
+    Vec3 rotate_rad{};         ///< about x, y, z in that order, counter-clockwise seen from the axis' tip
+    std::optional<Rgb> color;  ///< absent: the source's own, else white
+    std::size_t drones = 0;    ///< resolved: all parts of a keyframe sum to the fleet
+    std::string group;         ///< the group whose drones fly here; empty: anyone
     int line = 0;
 };
 
@@ -67,9 +67,9 @@ struct SpectralOptions {
 };
 enum class FlowOf { positions, spectral };
 struct FlowOptions {
-    double tension = 0.5;              ///< Catmull-Rom's tau, [0, 1]; paper 000, equation 5
-    bool corner = false;               ///< the path is not smooth at the keyframe arrived at
-    FlowOf of = FlowOf::positions;     ///< what is interpolated: positions, or bases and coefficients (cumulative form)
+    double tension = 0.5;           ///< Catmull-Rom's tau, [0, 1]; paper 000, equation 5
+    bool corner = false;            ///< the path is not smooth at the keyframe arrived at
+    FlowOf of = FlowOf::positions;  ///< what is interpolated: positions, or bases and coefficients (cumulative form)
 };
 
 /// How the fleet comes to a keyframe.
@@ -86,20 +86,20 @@ struct Arrive {
 };
 
 struct Keyframe {
-    std::string name;                  ///< unique
-    std::vector<Part> parts;           ///< >= 1
-    Vec3 center_m{};                   ///< with parts: applied on top of each part's own place; else (0,0,0) and in the part
+    std::string name;         ///< unique
+    std::vector<Part> parts;  ///< >= 1
+    Vec3 center_m{};          ///< with parts: applied on top of each part's own place; else (0,0,0) and in the part
     Vec3 rotate_rad{};
-    std::optional<double> at_s;        ///< the formation stands at this show time
-    double hold_s = 3.0;               ///< 0 only where the next arrival is a flow
+    std::optional<double> at_s;  ///< the formation stands at this show time
+    double hold_s = 3.0;         ///< 0 only where the next arrival is a flow
     Arrive arrive;
     int line = 0;
 };
 
 struct Group {
     std::string name;
-    std::vector<DroneId> drones;       ///< ascending, disjoint from other groups of the same level
-    double weight = 10.0;              ///< multiplies adjacency weights inside the group
+    std::vector<DroneId> drones;  ///< ascending, disjoint from other groups of the same level
+    double weight = 10.0;         ///< multiplies adjacency weights inside the group
     int line = 0;
 };
 
@@ -109,13 +109,13 @@ struct AdjacencyEnd {
 };
 struct AdjacencyEdit {
     AdjacencyEnd first, second;
-    double weight = 1.0;               ///< multiplies; 0 cuts; connects with 1/d times this where no edge was
+    double weight = 1.0;  ///< multiplies; 0 cuts; connects with 1/d times this where no edge was
     int line = 0;
 };
 
 struct Fleet {
     std::size_t drones = 0;
-    Points pads_m;                     ///< exactly `drones` places on the ground, show frame; drone i stands on pad i
+    Points pads_m;  ///< exactly `drones` places on the ground, show frame; drone i stands on pad i
     double endurance_s = 900.0;
     int line = 0;
 };
@@ -128,11 +128,11 @@ struct Mission {
     std::optional<std::filesystem::path> audio;
     Fleet fleet;
     Limits limits;
-    geo::Airspace airspace;            ///< already in the show frame
-    std::vector<Keyframe> keyframes;   ///< >= 1
+    geo::Airspace airspace;           ///< already in the show frame
+    std::vector<Keyframe> keyframes;  ///< >= 1
     std::vector<Group> groups;
-    std::vector<Cue> cues;             ///< in time order
-    double light_rate_hz = 25.0;       ///< [lights] rate_hz, [1, 50]
+    std::vector<Cue> cues;        ///< in time order
+    double light_rate_hz = 25.0;  ///< [lights] rate_hz, [1, 50]
     std::vector<AdjacencyEdit> adjacency;
 
     /// "file:line: what" for messages of later stages, e.g. at(k.line, "keyframe[2].size_m = 3: needs >= 7.5").

@@ -96,7 +96,7 @@ std::optional<geo::Prism> read_prism(TableReader& in) {
 
 std::optional<geo::Obstacle> read_obstacle(TableReader& in) {
     geo::Obstacle out;
-    out.name = in.text("name").value_or(in.path());
+    out.name = in.name("name").value_or(in.path());
     in.need("kind", "write kind = \"cylinder\", \"box\" or \"prism\"");
     in.need("height_m", "write height_m = 25");
     const auto kind =

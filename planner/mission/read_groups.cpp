@@ -85,7 +85,7 @@ void read_groups(TableReader& root, Mission& mission) {
         Group group;
         group.line = in.line();
         in.need("name", "write name = \"wing-left\"");
-        group.name = in.text("name").value_or("");
+        group.name = in.name("name").value_or("");
         group.drones = read_drones(in, mission.fleet.drones);
         group.weight = in.number("weight", more_than(0.0, 1e6)).value_or(group.weight);
         in.later("groups", "list the drones: drones = \"1-5,8\"");
@@ -111,7 +111,7 @@ void read_cues(TableReader& root, Mission& mission) {
         in.need("name", "write name = \"finale\"");
         in.need("at_s", "write the show time in seconds: at_s = 95.0");
         Cue cue;
-        cue.name = in.text("name").value_or("");
+        cue.name = in.name("name").value_or("");
         cue.time_ms = std::llround(1000.0 * in.number("at_s", at_least(0.0, 86400.0)).value_or(0.0));
         in.finish();
         mission.cues.push_back(std::move(cue));

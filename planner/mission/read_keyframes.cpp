@@ -82,7 +82,7 @@ Keyframe read_keyframe(TableReader& in, const Mission& mission) {
     Keyframe keyframe;
     keyframe.line = in.line();
     in.need("name", "write a unique name = \"...\"");
-    keyframe.name = in.text("name").value_or("");
+    keyframe.name = in.name("name").value_or("");
     keyframe.at_s = in.number("at_s", at_least(0.0, 86400.0));
     keyframe.hold_s = in.number("hold_s", at_least(0.0, 86400.0)).value_or(keyframe.hold_s);
     keyframe.arrive = read_arrive(in, mission);

@@ -7,6 +7,8 @@ namespace aerogram::planner {
 
 namespace {
 
+constexpr double kLightRate_hz = 25.0;
+
 enum class Datum { ellipsoid, amsl };
 
 void read_origin(TableReader& show, Mission& mission) {
@@ -42,11 +44,12 @@ void read_show(TableReader& root, Mission& mission) {
     auto show = root.table("show");
     if (!show) return;
     show->need("name", "write name = \"THE END\"");
-    mission.name = show->text("name").value_or("");
+    mission.name = show->name("name").value_or("");
     mission.seed =
         static_cast<std::uint64_t>(show->integer("seed", 0, std::numeric_limits<std::int64_t>::max()).value_or(1));
     read_origin(*show, mission);
     mission.audio = show->file("audio", "an audio file beside the mission");
+    if (mission.audio) show->later("audio", "no export carries it yet");
     // What "auto" optimises: every value is checked, none is used before "auto" is.
     show->choice<int>("objective", {{"shortest", 0}, {"together", 1}, {"smooth", 2}});
     show->finish();
@@ -98,6 +101,7 @@ void read_lights(TableReader& root, Mission& mission) {
     auto lights = root.table("lights");
     if (!lights) return;
     mission.light_rate_hz = lights->number("rate_hz", {1.0, 50.0}).value_or(mission.light_rate_hz);
+    if (mission.light_rate_hz != kLightRate_hz) lights->later("rate_hz", "exports choose their own rates");
     lights->finish();
 }
 

@@ -129,6 +129,16 @@ std::optional<std::string> TableReader::text(std::string_view key) {
     return std::nullopt;
 }
 
+std::optional<std::string> TableReader::name(std::string_view key) {
+    const auto written = text(key);
+    const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
+    if (written && std::ranges::any_of(*written, is_control)) {
+        bad(key, "must not hold control characters such as a new line or a tab");
+        return std::nullopt;
+    }
+    return written;
+}
+
 std::optional<std::filesystem::path> TableReader::file(std::string_view key, std::string_view kind) {
     const auto written = text(key);
     if (!written) return std::nullopt;

@@ -54,6 +54,7 @@ class TableReader {
     std::optional<std::int64_t> integer(std::string_view key, std::int64_t low, std::int64_t high);
     std::optional<bool> flag(std::string_view key);
     std::optional<std::string> text(std::string_view key);  ///< not empty
+    std::optional<std::string> name(std::string_view key);  ///< not empty, one line, no control characters
     std::optional<std::filesystem::path> file(std::string_view key,
                                               std::string_view kind);  ///< exists; mission's folder
     std::optional<std::vector<double>> numbers(std::string_view key, std::size_t least, std::size_t most,

@@ -129,6 +129,27 @@ TEST(ExportShow, OnlyTheNamedFormatsAreWritten) {
     EXPECT_THAT(refused.error().message, HasSubstr("no format is named \"skyk\"; there are: trajectories"));
 }
 
+// Replacing a folder deletes what is in it: a web page's manifest.json once passed for ours.
+TEST(ExportShow, ForeignFilesAreNeverReplaced) {
+    const fixed::ScratchFolder scratch;
+    const fs::path site = scratch.path() / "site", own = scratch.path() / "own";
+    ASSERT_TRUE(write_file(site / "manifest.json", R"({"name": "a web page"})").ok());
+    ASSERT_TRUE(write_file(site / "src" / "a.js", "x").ok());
+    const auto before = contents(site);
+    const auto refused = export_show(fixed::show(), site, kExact, false, {});
+    ASSERT_FALSE(refused.ok());
+    EXPECT_EQ(refused.error().code, ErrorCode::invalid_input);
+    EXPECT_THAT(refused.error().message, HasSubstr("no show folder written by aerogram"));
+    EXPECT_EQ(contents(site), before);
+
+    ASSERT_TRUE(export_show(fixed::show(), own, kExact, false, {}).ok());
+    ASSERT_TRUE(write_file(own / "notes" / "mine.txt", "mine").ok());
+    const auto noted = export_show(fixed::show(), own, kExact, false, {});
+    ASSERT_FALSE(noted.ok());
+    EXPECT_THAT(noted.error().message, HasSubstr("holds notes/mine.txt, which aerogram did not write"));
+    EXPECT_TRUE(fs::exists(own / "notes" / "mine.txt"));
+}
+
 TEST(ExportShow, FilesThatBreakALimitAreNotKept) {
     const fixed::ScratchFolder scratch;
     ASSERT_TRUE(export_show(fixed::show(), scratch.path() / "show", kExact, false, {}).ok());
@@ -138,6 +159,24 @@ TEST(ExportShow, FilesThatBreakALimitAreNotKept) {
     EXPECT_EQ(exported.error().code, ErrorCode::infeasible);
     EXPECT_THAT(exported.error().message, HasSubstr("trajectories: separation 0, limit 1.5, drones 1 2, at "));
     EXPECT_EQ(contents(scratch.path()), before) << "the destination is as it was, and nothing lies beside it";
+}
+
+// "altitude_max 120, limit 120" was said of a show that was refused.
+TEST(ExportShow, BrokenLimitIsSaidWithTheDigitsThatTellItFromWhatWasFound) {
+    const fixed::ScratchFolder scratch;
+    planner::FlightPlan plan = fixed::show();
+    plan.limits.ceiling_m = 20.8721;  // flown: 20.875 m above the third pad, and the curve of the earth
+    const auto exported = export_show(plan, scratch.path() / "show", kExact, false, aerogram::Run{});
+    ASSERT_FALSE(exported.ok());
+    EXPECT_THAT(exported.error().message, HasSubstr("trajectories: altitude_max 20.875, limit 20.872, drone 3, at "));
+    plan.limits.ceiling_m = 20.8742;
+    EXPECT_TRUE(export_show(plan, scratch.path() / "show", kExact, false, aerogram::Run{}).ok());  // within 1 mm
+    plan.limits = Limits{};
+    plan.limits.speed_up_mps = 1.4931;
+    const auto speed = export_show(plan, scratch.path() / "show", kExact, false, aerogram::Run{});
+    ASSERT_FALSE(speed.ok());
+    EXPECT_THAT(speed.error().message, HasSubstr("trajectories: speed_up 1.49"));
+    EXPECT_THAT(speed.error().message, HasSubstr(", limit 1.4931, drone 3, at "));
 }
 
 TEST(ExportShow, BestEffortMarksEveryFileAsUncertified) {

@@ -303,7 +303,7 @@ TEST(VerifyFolder, BrokenLimitsAreFindings) {
     ASSERT_TRUE(export_show(plan, folder, std::vector<std::string>{"trajectories"}, true, PlainRun{}).ok());
     const Verified result = verified(folder);
     EXPECT_FALSE(result.held());
-    EXPECT_THAT(result.problems, IsEmpty());
+    EXPECT_THAT(result.problems, ElementsAre(HasSubstr("manifest.json: says that this show is not certified")));
     ASSERT_EQ(result.shows.size(), 1U);
     for (const Finding& finding : result.shows[0].findings) EXPECT_EQ(finding.held, finding.rule != "speed_horizontal");
 }
@@ -313,10 +313,17 @@ TEST(VerifyFile, IsJudgedByWhatItHolds) {
     const fs::path folder = scratch.path() / "show";
     export_fixed(folder, {"trajectories"});
     const fs::path file = folder / "trajectories.bin";
-    const Verified result = verified(file);
+    const Verified inside = verified(file);
+    EXPECT_TRUE(inside.held());
+    ASSERT_EQ(inside.shows.size(), 1U);
+    EXPECT_EQ(inside.shows[0].limits_from, "the manifest beside it");
+
+    fs::create_directory(scratch.path() / "alone");
+    const fs::path alone = scratch.path() / "alone" / "trajectories.bin";
+    fs::copy_file(file, alone);
+    const Verified result = verified(alone);
     EXPECT_TRUE(result.held());
-    ASSERT_EQ(result.shows.size(), 1U);
-    EXPECT_EQ(result.shows[0].limits_from, "the file");
+    EXPECT_EQ(result.shows.at(0).limits_from, "the file");
 
     const fs::path cut = scratch.path() / "trajectories.bin";
     ASSERT_TRUE(write_file(cut, read_file(file).value().substr(0, 500)).ok());
@@ -324,6 +331,29 @@ TEST(VerifyFile, IsJudgedByWhatItHolds) {
     ASSERT_FALSE(damaged.ok());
     EXPECT_EQ(damaged.error().code, ErrorCode::invalid_input);
     EXPECT_THAT(damaged.error().message, StartsWith(cut.string() + ": "));
+}
+
+TEST(VerifyFile, ChangedFileInsideItsFolderIsNoticed) {
+    const fixed::ScratchFolder scratch;
+    const fs::path folder = scratch.path() / "show";
+    export_fixed(folder, {"csv"});
+    std::string bytes = read_file(folder / "csv.zip").value();
+    bytes.push_back('\n');
+    ASSERT_TRUE(write_file(folder / "csv.zip", bytes).ok());
+    const auto result = verify_path(folder / "csv.zip", PlainRun{});
+    EXPECT_FALSE(result.ok() && result->held());
+}
+
+TEST(VerifyFile, UncertifiedFileDoesNotHoldWhateverItsNumbers) {
+    const fixed::ScratchFolder scratch;
+    const fs::path folder = scratch.path() / "show";
+    planner::FlightPlan plan = honest_show();
+    plan.certificate.violations = {"the show lasts too long"};
+    ASSERT_TRUE(export_show(plan, folder, std::vector<std::string>{"trajectories"}, true, PlainRun{}).ok());
+    fs::create_directory(scratch.path() / "alone");
+    fs::copy_file(folder / "trajectories.bin", scratch.path() / "alone" / "trajectories.bin");
+    const Verified result = verified(scratch.path() / "alone" / "trajectories.bin");
+    EXPECT_THAT(result.shows.at(0).problems, ElementsAre(HasSubstr("not certified")));
 }
 
 // Two drones that hover 0.3 m apart for a minute passed: a CSV's first row was taken for its home.

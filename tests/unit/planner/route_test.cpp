@@ -92,22 +92,22 @@ TEST(Route, PartsWithoutAGroupGoToTheGroupsOfTheirSize) {
     for (std::size_t d = 0; d < 8; ++d) EXPECT_EQ(stop.by_drone_m[d].x > 0.0, d < 3) << "drone " << d + 1;
 }
 
-TEST(Route, GroupsWithoutPartsOfTheirSizeAreInfeasibleAtTheArrivalsLine) {
+TEST(Route, GroupsWithoutPartsOfTheirSizeAreAnErrorAtTheArrivalsLine) {
     const Mission mission = show_of(groups_of_four() + in_parts("{ assign = \"groups\" }") +
                                     "[[keyframe.part]]\nshape = \"line\"\ndrones = 5\ncenter_m = [-20, 0, 40]\n"
                                     "[[keyframe.part]]\nshape = \"line\"\ndrones = 3\ncenter_m = [20, 0, 40]\n");
     const auto route = build_route(mission, aerogram::Run{});
     ASSERT_FALSE(route);
-    EXPECT_EQ(route.error().code, ErrorCode::infeasible);
+    EXPECT_EQ(route.error().code, ErrorCode::invalid_input);
     EXPECT_THAT(route.error().message, HasSubstr("small.toml:16: keyframe[1].arrive: "));
 }
 
-TEST(Route, APinThatLeavesItsGroupIsInfeasible) {
+TEST(Route, APinThatLeavesItsGroupIsAnError) {
     const Mission mission = show_of(groups_of_four() + in_parts("{ assign = \"groups\", pins = { 1 = 8, 2 = 1 } }") +
                                     part("left", 20, 40, 4, "#f00") + part("right", -20, 40, 4, "#0f0"));
     const auto route = build_route(mission, aerogram::Run{});
     ASSERT_FALSE(route);
-    EXPECT_EQ(route.error().code, ErrorCode::infeasible);
+    EXPECT_EQ(route.error().code, ErrorCode::invalid_input);
     EXPECT_THAT(route.error().message, HasSubstr("keyframe[1].arrive: "));
 }
 
