@@ -199,8 +199,8 @@ Problems disagreement_of_shows(const RecordedShow& reference, const RecordedShow
     if (!show.timed) return places_disagree(reference, show, origin);
     const auto fleet = static_cast<double>(show.drones.size());
     const double length_s = std::max(reference.duration_s, show.duration_s);
-    const double times =
-        std::clamp(std::min(length_s / kSampleEvery_s, kMostSamples / fleet), kFewestTimes, kMostSamples);
+    const auto times = static_cast<std::size_t>(
+        std::clamp(std::min(length_s / kSampleEvery_s, kMostSamples / fleet), kFewestTimes, kMostSamples));
     const double fastest_mps =
         std::hypot(limits.speed_horizontal_mps, std::max(limits.speed_up_mps, limits.speed_down_mps));
     const double allowed_m = space_m(reference.rounding) + space_m(show.rounding) + kNumeric +
@@ -208,8 +208,8 @@ Problems disagreement_of_shows(const RecordedShow& reference, const RecordedShow
     double worst_m = 0.0, worst_s = 0.0;
     std::size_t worst_drone = 0;
     for (std::size_t d = 0; d < show.drones.size(); ++d) {
-        for (double k = 0.0; k <= times; k += 1.0) {
-            const double t = length_s * (k / times);
+        for (std::size_t k = 0; k <= times; ++k) {
+            const double t = length_s * (static_cast<double>(k) / static_cast<double>(times));
             const double off_m = glm::length(position_at(reference.drones[d], t) - position_at(show.drones[d], t));
             if (off_m <= worst_m + kNumeric) continue;
             worst_m = off_m;

@@ -123,7 +123,7 @@ Result<Problems> disagreement_with_certificate(const CertificateRecord& certific
             problems.push_back(name + " is not certified, the certificate says it is");
         const auto wrong = problems_of_act(act, trajectories, rules, run);
         if (!wrong) return wrong.error();
-        for (const std::string& what : *wrong) problems.push_back(name + " " + what);
+        for (const std::string& what : *wrong) problems.push_back((name + " ").append(what));
     }
     if (std::abs(clock_s - manifest.duration_s) > kNumeric)
         problems.push_back("the acts do not last as long as the show");

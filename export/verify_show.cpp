@@ -147,7 +147,7 @@ class FolderCheck {
         if (reference_) {
             problems(path, disagreement_of_shows(*reference_, *show, manifest_.limits, manifest_.origin));
         }
-        const Status judged = judge_against_manifest(*show, *format, path);
+        Status judged = judge_against_manifest(*show, *format, path);
         if (judged && show->timed && !reference_) reference_ = std::move(*show);
         return judged;
     }

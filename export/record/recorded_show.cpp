@@ -45,7 +45,8 @@ Status well_formed(const RecordedShow& show) {
         for (std::size_t k = 0; k < drone.pieces.size(); ++k) {
             const std::string flaw = flaw_of_piece(drone, k);
             if (flaw.empty()) continue;
-            return Error{ErrorCode::invalid_input, name + ", piece " + std::to_string(k + 1) + ": " + flaw};
+            std::string message = name + ", piece " + std::to_string(k + 1);
+            return Error{ErrorCode::invalid_input, message.append(": ").append(flaw)};
         }
     }
     return Done{};

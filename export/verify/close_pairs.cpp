@@ -1,6 +1,7 @@
 #include "export/verify/close_pairs.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace aerogram::exporter {
@@ -10,10 +11,17 @@ constexpr double kCellsAcrossLargest = 32.0;
 constexpr double kSmallestCell_m = 1e-3;
 constexpr double kSmallestCellShare = 1e-9;  ///< of the farthest coordinate: cells are numbered within ±1e9
 
-std::uint64_t cell_key(double x, double y, double z) {
+using Cell = std::array<std::int64_t, 3>;
+
+Cell cell_at(const Vec3& p, double size) {
+    const auto along = [size](double v) { return static_cast<std::int64_t>(std::floor(v / size)); };
+    return {along(p.x), along(p.y), along(p.z)};
+}
+
+std::uint64_t cell_key(const Cell& cell) {
     std::uint64_t key = 0;
-    for (const double v : {x, y, z}) {
-        key = (key ^ static_cast<std::uint64_t>(static_cast<std::int64_t>(v))) * 0x9E3779B97F4A7C15U;
+    for (const std::int64_t v : cell) {
+        key = (key ^ static_cast<std::uint64_t>(v)) * 0x9E3779B97F4A7C15U;
         key ^= key >> 29U;
     }
     return key;
@@ -39,12 +47,12 @@ void CloseBoxes::find(const std::vector<Box>& boxes, double reach_m, double mean
     if (!(reach_m > 0.0)) return;  // no gap is below 0
     const double cell = cell_size(boxes, reach_m, mean_extent_m);
     const Vec3 half(0.5 * reach_m);
-    const auto low_cell = [&](const Box& box) { return glm::floor((box.low_m - half) / cell); };
+    const auto low_cell = [&](const Box& box) { return cell_at(box.low_m - half, cell); };
     for (std::uint32_t i = 0; i < boxes.size(); ++i) {
-        const Vec3 low = low_cell(boxes[i]), high = glm::floor((boxes[i].high_m + half) / cell);
-        for (double x = low.x; x <= high.x; x += 1.0) {
-            for (double y = low.y; y <= high.y; y += 1.0) {
-                for (double z = low.z; z <= high.z; z += 1.0) entries_.push_back({cell_key(x, y, z), i});
+        const Cell low = low_cell(boxes[i]), high = cell_at(boxes[i].high_m + half, cell);
+        for (std::int64_t x = low[0]; x <= high[0]; ++x) {
+            for (std::int64_t y = low[1]; y <= high[1]; ++y) {
+                for (std::int64_t z = low[2]; z <= high[2]; ++z) entries_.push_back({cell_key({x, y, z}), i});
             }
         }
     }
@@ -57,8 +65,9 @@ void CloseBoxes::find(const std::vector<Box>& boxes, double reach_m, double mean
             for (std::size_t b = a + 1; b < end; ++b) {
                 const Box& second = boxes[entries_[b].box];
                 if (first.gap(second) >= reach_m) continue;
-                const Vec3 meet = glm::max(low_cell(first), low_cell(second));
-                if (cell_key(meet.x, meet.y, meet.z) != entries_[a].cell) continue;
+                const Cell p = low_cell(first), q = low_cell(second);
+                const Cell meet{std::max(p[0], q[0]), std::max(p[1], q[1]), std::max(p[2], q[2])};
+                if (cell_key(meet) != entries_[a].cell) continue;
                 if (!visit(entries_[a].box, entries_[b].box)) return;
             }
         }
