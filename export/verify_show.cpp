@@ -45,6 +45,12 @@ std::optional<Surrounding> manifest_around(const fs::path& path, const std::stri
     return std::nullopt;
 }
 
+void take_pads(RecordedShow& show, const Manifest& manifest) {
+    Points pads_m;
+    for (const ManifestDrone& drone : manifest.drones) pads_m.push_back(drone.pad_m);
+    state_missing_places(show, pads_m);
+}
+
 void take_limits(RecordedShow& show, const Manifest& manifest) {
     show.limits = manifest.limits;
     show.airspace = manifest.airspace;
@@ -62,7 +68,10 @@ Result<Verified> verify_file(const fs::path& path, const Run& run) {
     const std::array files{FileBytes{name, std::move(*bytes)}};
     auto show = format->read(files);
     if (!show) return named(path.string(), show.error());
-    if (around) take_limits(*show, around->manifest);
+    if (around) {
+        take_limits(*show, around->manifest);
+        take_pads(*show, around->manifest);
+    }
     auto judgement = judge(*show, {}, run);
     if (!judgement)
         return judgement.error().code == ErrorCode::stopped ? judgement.error()
@@ -136,9 +145,7 @@ class FolderCheck {
             return Done{};
         }
         problems(path, disagreement_with_manifest(*show, manifest_));
-        Points pads_m;
-        for (const ManifestDrone& drone : manifest_.drones) pads_m.push_back(drone.pad_m);
-        state_missing_places(*show, pads_m);
+        take_pads(*show, manifest_);
         const Status sound = well_formed(*show);
         if (!sound) {
             problem(path, sound.error().message);

@@ -293,6 +293,8 @@ TEST(VerifyFolder, FilesWithoutHomesAreJudgedByTheManifestsPads) {
     ASSERT_NE(pads, moved.shows[0].findings.end());
     EXPECT_FALSE(pads->held);
     EXPECT_THAT(pads->drones, ElementsAre(2U));
+    const Judgement alone = verified(folder / "csv.zip").shows.at(0);  // the manifest lies beside it
+    EXPECT_TRUE(std::ranges::any_of(alone.findings, [](const Finding& f) { return f.rule == "pads" && !f.held; }));
 }
 
 TEST(VerifyFolder, BrokenLimitsAreFindings) {
