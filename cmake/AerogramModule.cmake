@@ -69,7 +69,7 @@ function(aerogram_python_test name script)
     if(NOT ARG_TIMEOUT)
         set(ARG_TIMEOUT 300)
     endif()
-    set(work "${PROJECT_BINARY_DIR}/tests/work/${name}")
+    set(work "${PROJECT_BINARY_DIR}/tests/scratch/${name}")
     file(MAKE_DIRECTORY "${work}")
     add_test(NAME ${name} COMMAND "${AEROGRAM_PYTHON}" "${PROJECT_SOURCE_DIR}/tests/${script}" ${ARG_ARGS}
              WORKING_DIRECTORY "${work}")

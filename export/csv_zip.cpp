@@ -68,9 +68,7 @@ Result<std::vector<std::string>> write(const planner::FlightPlan& plan, const Se
         entries[i] = {drone_name(i + 1, plan.drones()) + ".csv", csv_of(plan, DroneId(i), times)};
     });
     if (run.stopped()) return stopped_error();
-    const auto archive = zip_bytes(entries);
-    if (!archive) return archive.error();
-    if (const Status written = write_file(folder / kFile, *archive); !written) return written.error();
+    if (const Status written = write_zip(folder / kFile, entries); !written) return written.error();
     return std::vector<std::string>{kFile};
 }
 

@@ -191,9 +191,7 @@ Result<std::vector<std::string>> write(const FlightPlan& plan, const Seal& seal,
         entries.push_back({place + "lights.json", lights_json(plan, i)});
     }
     if (run.stopped()) return stopped_error();
-    const auto archive = zip_bytes(entries);
-    if (!archive) return archive.error();
-    if (const Status written = write_file(folder / kFile, *archive); !written) return written.error();
+    if (const Status written = write_zip(folder / kFile, entries); !written) return written.error();
     return std::vector<std::string>{kFile};
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
@@ -11,6 +12,9 @@ namespace aerogram::exporter {
 /// A ZIP archive (deflate) of the entries in order, with a fixed date: same entries, same bytes.
 /// Errors: invalid_input when there are none.
 Result<std::string> zip_bytes(std::span<const FileBytes> entries);
+
+/// The same, written to a file. Errors: as zip_bytes and write_file.
+Status write_zip(const std::filesystem::path& file, std::span<const FileBytes> entries);
 
 /// What a reader of untrusted archives may spend.
 struct UnzipLimits {

@@ -3,6 +3,7 @@
 #include <memory>
 #include <utility>
 
+#include "export/files.hpp"
 #include "export/zip.hpp"
 
 namespace aerogram::exporter {
@@ -171,6 +172,12 @@ Result<std::vector<FileBytes>> unzip_bytes(std::string_view archive_bytes, const
         files.push_back({entry.name, std::move(*bytes)});
     }
     return files;
+}
+
+Status write_zip(const std::filesystem::path& file, std::span<const FileBytes> entries) {
+    const auto archive = zip_bytes(entries);
+    if (!archive) return archive.error();
+    return write_file(file, *archive);
 }
 
 }  // namespace aerogram::exporter
