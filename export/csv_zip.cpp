@@ -5,7 +5,6 @@
 
 #include "export/csv_zip_reader.hpp"
 #include "export/decimal.hpp"
-#include "export/files.hpp"
 #include "export/skybrush_frame.hpp"
 #include "export/zip.hpp"
 #include "export/zip_peek.hpp"

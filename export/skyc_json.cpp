@@ -4,7 +4,6 @@
 
 #include "export/base64.hpp"
 #include "export/decimal.hpp"
-#include "export/files.hpp"
 #include "export/light_program.hpp"
 #include "export/skybrush_frame.hpp"
 #include "export/skyc.hpp"
