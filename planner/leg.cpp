@@ -203,6 +203,10 @@ const char* name_of(Method method) {
             return "straight";
         case Method::spectral:
             return "spectral";
+        case Method::rigid:
+            return "rigid";
+        case Method::automatic:
+            return "auto";
         case Method::flow:
             break;
     }

@@ -66,6 +66,7 @@ Result<Assignment> assign(const Mission& mission, const Keyframe& keyframe, cons
     switch (arrive.assign) {
         case Assign::shortest:
             return assign_shortest(from_m, formation.points_m, arrive.pins, metric, run);
+        case Assign::bottleneck:
         case Assign::keep:
             return assign_keep(from_m, formation.points_m, arrive.pins, metric);
         case Assign::groups:
@@ -79,6 +80,8 @@ const char* name_of(Assign assign) {
     switch (assign) {
         case Assign::shortest:
             return "shortest";
+        case Assign::bottleneck:
+            return "bottleneck";
         case Assign::keep:
             return "keep";
         case Assign::groups:

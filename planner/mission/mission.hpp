@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <variant>
@@ -54,12 +55,15 @@ struct Part {
     int line = 0;
 };
 
-enum class Method { straight, spectral, flow };
-enum class Assign { shortest, keep, groups };
+/// `automatic` tries straight, rigid and spectral, certifies each and keeps the best by the mission's objective.
+enum class Method { straight, spectral, rigid, flow, automatic };
+/// What `automatic` prefers: the shortest flight, neighbours that stay together, or the least jerk.
+enum class Objective { shortest, together, smooth };
+enum class Assign { shortest, bottleneck, keep, groups };
 enum class ProfileKind { minimum_jerk, trapezoid, s_curve };
-enum class SeparationMethod { projection, none };
+enum class SeparationMethod { projection, social_force, none };
 enum class Align { pca, kabsch, none };
-enum class Reorder { greedy, optimal, none };
+enum class Reorder { greedy, max_min, optimal, none };
 struct SpectralOptions {
     Align align = Align::kabsch;
     Reorder reorder = Reorder::optimal;
@@ -72,17 +76,37 @@ struct FlowOptions {
     FlowOf of = FlowOf::positions;  ///< what is interpolated: positions, or bases and coefficients (cumulative form)
 };
 
+/// How one group moves inside its parent: its members around its barycentre (paper 000, section 4.4).
+struct GroupMove {
+    std::size_t group = 0;  ///< index into Mission::groups
+    Method method = Method::straight;
+    double blend = 1.0;  ///< 1: as the group's method says; 0: as the parent's method would move its drones; between
+    SpectralOptions spectral;
+};
+
 /// How the fleet comes to a keyframe.
 struct Arrive {
     Method method = Method::straight;
     Assign assign = Assign::shortest;
     std::map<DroneId, SlotId> pins;
+    std::set<std::pair<DroneId, SlotId>> forbid;  ///< pairs that may not be matched
     std::optional<double> duration_s;
+    double stagger_s = 0.0;                  ///< the last drones start this much later than the first
+    std::optional<double> min_separation_m;  ///< more than the mission's minimum, asked for on this way alone
+    std::vector<GroupMove> groups;           ///< groups that move as bodies here; their order is the file's
     ProfileKind profile = ProfileKind::minimum_jerk;
     SeparationMethod separation = SeparationMethod::projection;
     SpectralOptions spectral;
     FlowOptions flow;
     int line = 0;
+};
+
+/// How a formation moves while it is shown; at rest at both ends of the hold.
+struct HoldMotion {
+    double spin_rad = 0.0;  ///< about the vertical through the formation's barycentre, counter-clockwise from above
+    Vec3 drift_m{};         ///< displacement over the hold
+
+    [[nodiscard]] bool moves() const { return spin_rad != 0.0 || drift_m != Vec3{}; }
 };
 
 struct Keyframe {
@@ -92,14 +116,24 @@ struct Keyframe {
     Vec3 rotate_rad{};
     std::optional<double> at_s;  ///< the formation stands at this show time
     double hold_s = 3.0;         ///< 0 only where the next arrival is a flow
+    HoldMotion motion;
     Arrive arrive;
     int line = 0;
 };
 
+/// Asks for groups to be found: this many, by spectral clustering of the first keyframe's adjacency graph.
+struct Cluster {
+    std::size_t count = 0;
+};
+
+/// A named set of drones. Groups may hold groups; two that share drones without one holding the other are legal, but
+/// may not move, nor be matched as wholes, on the same way.
 struct Group {
     std::string name;
-    std::vector<DroneId> drones;  ///< ascending, disjoint from other groups of the same level
-    double weight = 10.0;         ///< multiplies adjacency weights inside the group
+    std::vector<DroneId> drones;      ///< ascending; those of the groups inside included
+    std::vector<std::size_t> inside;  ///< groups directly inside: indices into Mission::groups
+    std::optional<Cluster> cluster;   ///< groups named NAME-1, NAME-2, ... are made inside by the planner
+    double weight = 10.0;             ///< multiplies adjacency weights inside the group
     int line = 0;
 };
 
@@ -113,10 +147,26 @@ struct AdjacencyEdit {
     int line = 0;
 };
 
+enum class Vehicle { copter, plane };
+/// Where drones go that a keyframe does not need, dark: above their pads, in columns beside the formation, or spread
+/// behind it.
+enum class Spares { pads, wings, overflow };
+
 struct Fleet {
     std::size_t drones = 0;
-    Points pads_m;  ///< exactly `drones` places on the ground, show frame; drone i stands on pad i
+    Vehicle vehicle = Vehicle::copter;
+    Spares spares = Spares::pads;
+    Points pads_m;        ///< exactly `drones` places on the ground, show frame; drone i stands on pad i
+    Points spare_pads_m;  ///< the mission's pads beyond those, in its order
     double endurance_s = 900.0;
+    int line = 0;
+};
+
+/// A route that the whole show rides along at constant speed: formations are placed relative to a point that moves
+/// along it.
+struct Carrier {
+    Points waypoints_m;  ///< >= 2, show frame
+    double speed_mps = 0.0;
     int line = 0;
 };
 
@@ -124,6 +174,7 @@ struct Mission {
     std::filesystem::path file;
     std::string name;
     std::uint64_t seed = 1;
+    Objective objective = Objective::shortest;
     geo::ShowOrigin origin;
     std::optional<std::filesystem::path> audio;
     Fleet fleet;
@@ -134,6 +185,7 @@ struct Mission {
     std::vector<Cue> cues;        ///< in time order
     double light_rate_hz = 25.0;  ///< [lights] rate_hz, [1, 50]
     std::vector<AdjacencyEdit> adjacency;
+    std::optional<Carrier> carrier;
 
     /// "file:line: what" for messages of later stages, e.g. at(k.line, "keyframe[2].size_m = 3: needs >= 7.5").
     [[nodiscard]] std::string at(int line, const std::string& what) const;

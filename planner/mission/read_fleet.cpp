@@ -11,8 +11,6 @@ namespace {
 constexpr std::int64_t kMostDrones = 100000;
 constexpr double kClosestPads_m = 0.2;
 
-enum class Vehicle { copter };
-enum class Spares { pads };
 
 std::string pad_name(std::size_t index) {
     return "pad " + std::to_string(index + 1);
