@@ -50,7 +50,7 @@ struct Part {
     Vec3 center_m{};
     Vec3 rotate_rad{};         ///< about x, y, z in that order, counter-clockwise seen from the axis' tip
     std::optional<Rgb> color;  ///< absent: the source's own, else white
-    std::size_t drones = 0;    ///< resolved: all parts of a keyframe sum to the fleet
+    std::size_t drones = 0;    ///< resolved; what the parts of a keyframe leave over is spare
     std::string group;         ///< the group whose drones fly here; empty: anyone
     int line = 0;
 };

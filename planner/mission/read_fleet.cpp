@@ -8,21 +8,20 @@ namespace aerogram::planner {
 
 namespace {
 
-constexpr std::int64_t kMostDrones = 100000;
+constexpr std::size_t kMostDrones = 100000;
 constexpr double kClosestPads_m = 0.2;
-
 
 std::string pad_name(std::size_t index) {
     return "pad " + std::to_string(index + 1);
 }
 
-// rows, columns, spacing_m, center_m; empty when something is wrong.
+// rows, columns, spacing_m, center_m: all pads, spare ones too; empty when something is wrong.
 Points read_grid(TableReader& pads, std::size_t drones) {
     pads.need("rows", "write pads = { rows = 2, columns = 5, spacing_m = 2.5 }");
     pads.need("columns", "write pads = { rows = 2, columns = 5, spacing_m = 2.5 }");
     pads.need("spacing_m", "write the distance between neighbouring pads in metres");
-    const auto rows = pads.integer("rows", 1, kMostDrones);
-    const auto columns = pads.integer("columns", 1, kMostDrones);
+    const auto rows = pads.integer("rows", 1, std::int64_t{kMostDrones});
+    const auto columns = pads.integer("columns", 1, std::int64_t{kMostDrones});
     const auto spacing_m = pads.number("spacing_m", at_least(kClosestPads_m, 1000.0));
     const Vec2 center_m = pads.vec2("center_m").value_or(Vec2{});
     if (!rows || !columns || !spacing_m || drones == 0) return {};
@@ -33,7 +32,7 @@ Points read_grid(TableReader& pads, std::size_t drones) {
         return {};
     }
     return grid_pads({static_cast<std::size_t>(*rows), static_cast<std::size_t>(*columns), *spacing_m, center_m},
-                     drones);
+                     std::min(places, kMostDrones));
 }
 
 Points read_listed(TableReader& pads, std::size_t drones) {
@@ -49,26 +48,17 @@ Points read_listed(TableReader& pads, std::size_t drones) {
                             std::to_string(listed->size()));
         return {};
     }
-    listed->resize(drones);
     return *listed;
 }
 
+/// Pads closer than the separation are legal: the fleet then leaves and lands in layers, one after the other.
 void check_spacing(TableReader& fleet, const Points& pads_m, const Limits& limits) {
-    const SeparationMetric metric{limits.downwash};
-    const double planned_m = planned_separation_m(limits);
-    // Rounding of a regular grid must not make pads at exactly the separation too tight.
-    const double limit_m = std::max(kClosestPads_m, planned_m) - 1e-9;
-    const auto tight = find_tight_pads(pads_m, metric, limit_m);
+    // Rounding of a regular grid must not make pads at exactly the distance too tight.
+    const auto tight = find_tight_pads(pads_m, SeparationMetric{limits.downwash}, kClosestPads_m - 1e-9);
     if (!tight) return;
-    const std::string pair = pad_name(tight->first) + " and " + pad_name(tight->second) + " are " +
-                             shown(std::round(tight->distance_m * 1000.0) / 1000.0) + " m apart";
-    if (tight->distance_m < kClosestPads_m - 1e-9) {
-        fleet.bad("pads", pair + "; must be >= " + shown(kClosestPads_m) + " m");
-    } else {
-        fleet.bad("pads",
-                  pair + "; must be >= " + shown(planned_m) +
-                      " m, min_separation_m plus export_margin_m (layers for tighter pads are not in this version)");
-    }
+    fleet.bad("pads", pad_name(tight->first) + " and " + pad_name(tight->second) + " are " +
+                          shown(std::round(tight->distance_m * 1000.0) / 1000.0) +
+                          " m apart; must be >= " + shown(kClosestPads_m) + " m");
 }
 
 Points read_pads(TableReader& fleet, std::size_t drones) {
@@ -98,16 +88,27 @@ void read_fleet(TableReader& root, Mission& mission) {
     if (!fleet) return;
     mission.fleet.line = fleet->line();
     fleet->need("drones", "write drones = 10");
-    mission.fleet.drones = static_cast<std::size_t>(fleet->integer("drones", 1, kMostDrones).value_or(0));
-    fleet->choice<Vehicle>("vehicle", {{"copter", Vehicle::copter}, {"plane", std::nullopt}});
+    mission.fleet.drones = static_cast<std::size_t>(fleet->integer("drones", 1, std::int64_t{kMostDrones}).value_or(0));
+    mission.fleet.vehicle = fleet->choice<Vehicle>("vehicle", {{"copter", Vehicle::copter}, {"plane", Vehicle::plane}})
+                                .value_or(mission.fleet.vehicle);
     if (auto spares = fleet->table("spares")) {
-        spares->choice<Spares>("where", {{"pads", Spares::pads}, {"wings", std::nullopt}, {"overflow", std::nullopt}});
+        mission.fleet.spares =
+            spares
+                ->choice<Spares>("where",
+                                 {{"pads", Spares::pads}, {"wings", Spares::wings}, {"overflow", Spares::overflow}})
+                .value_or(mission.fleet.spares);
         spares->finish();
     }
     mission.fleet.endurance_s =
         fleet->number("endurance_s", more_than(0.0, 86400.0)).value_or(mission.fleet.endurance_s);
-    mission.fleet.pads_m = read_pads(*fleet, mission.fleet.drones);
-    check_spacing(*fleet, mission.fleet.pads_m, mission.limits);
+    Points& pads_m = mission.fleet.pads_m;
+    pads_m = read_pads(*fleet, mission.fleet.drones);
+    check_spacing(*fleet, pads_m, mission.limits);
+    if (pads_m.size() > mission.fleet.drones) {
+        const auto first_spare = pads_m.begin() + static_cast<std::ptrdiff_t>(mission.fleet.drones);
+        mission.fleet.spare_pads_m.assign(first_spare, pads_m.end());
+        pads_m.erase(first_spare, pads_m.end());
+    }
     fleet->finish();
 }
 

@@ -70,12 +70,14 @@ void read_parts(TableReader& in, Keyframe& keyframe, const Mission& mission) {
     check_groups(in, keyframe, mission, tables);
 }
 
-void read_motion(TableReader& in) {
+HoldMotion read_motion(TableReader& in) {
+    HoldMotion out;
     auto motion = in.table("motion");
-    if (!motion) return;
-    if (motion->number("spin_deg").value_or(0.0) != 0.0) motion->later("spin_deg", "must be 0");
-    if (motion->vec3("drift_m").value_or(Vec3{}) != Vec3{}) motion->later("drift_m", "must be [0, 0, 0]");
+    if (!motion) return out;
+    out.spin_rad = radians(motion->number("spin_deg", {-36000.0, 36000.0}).value_or(0.0));
+    out.drift_m = motion->vec3("drift_m").value_or(Vec3{});
     motion->finish();
+    return out;
 }
 
 Keyframe read_keyframe(TableReader& in, const Mission& mission) {
@@ -86,7 +88,8 @@ Keyframe read_keyframe(TableReader& in, const Mission& mission) {
     keyframe.at_s = in.number("at_s", at_least(0.0, 86400.0));
     keyframe.hold_s = in.number("hold_s", at_least(0.0, 86400.0)).value_or(keyframe.hold_s);
     keyframe.arrive = read_arrive(in, mission);
-    read_motion(in);
+    keyframe.motion = read_motion(in);
+    if (keyframe.motion.moves() && keyframe.hold_s == 0.0) in.bad("motion", "needs a hold_s > 0 to happen in");
     if (in.has("part")) {
         read_parts(in, keyframe, mission);
     } else {

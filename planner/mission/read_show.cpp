@@ -50,8 +50,10 @@ void read_show(TableReader& root, Mission& mission) {
     read_origin(*show, mission);
     mission.audio = show->file("audio", "an audio file beside the mission");
     if (mission.audio) show->later("audio", "no export carries it yet");
-    // What "auto" optimises: every value is checked, none is used before "auto" is.
-    show->choice<int>("objective", {{"shortest", 0}, {"together", 1}, {"smooth", 2}});
+    mission.objective = show->choice<Objective>("objective", {{"shortest", Objective::shortest},
+                                                              {"together", Objective::together},
+                                                              {"smooth", Objective::smooth}})
+                            .value_or(mission.objective);
     show->finish();
 }
 

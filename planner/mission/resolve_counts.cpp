@@ -49,18 +49,18 @@ Result<std::vector<std::size_t>> resolve_counts(std::span<const CountWish> parts
     const double left = static_cast<double>(fleet) - asked;
     const auto rounded = [](double d) { return shown(std::round(d * 100.0) / 100.0); };
     const std::string of_fleet = rounded(asked) + " of " + std::to_string(fleet) + " drones";
-    if (by_rest.empty() ? std::abs(left) > 0.5 : left < static_cast<double>(by_rest.size()) - 0.5) {
+    if (left < static_cast<double>(by_rest.size()) - 0.5) {
         return Error{ErrorCode::invalid_input,
                      "the parts take " + of_fleet +
-                         (by_rest.empty() ? "; must be all of them"
+                         (by_rest.empty() ? "; must be at most all of them"
                                           : "; must leave at least one for each part without drones or share")};
     }
     const std::size_t given = std::accumulate(counts.begin(), counts.end(), std::size_t{0});
     const double shares = std::accumulate(exact.begin(), exact.end(), 0.0);
-    const std::size_t for_shares = by_rest.empty() ? fleet - given : static_cast<std::size_t>(std::llround(shares));
+    const std::size_t for_shares = std::min(fleet - given, static_cast<std::size_t>(std::llround(shares)));
     const auto shared = largest_remainder(exact, for_shares);
     for (std::size_t k = 0; k < by_share.size(); ++k) counts[by_share[k]] = shared[k];
-    const std::size_t rest = fleet - given - for_shares;
+    const std::size_t rest = fleet - given - for_shares;  // without a part to take them: spare drones
     for (std::size_t k = 0; k < by_rest.size(); ++k) {
         counts[by_rest[k]] = rest / by_rest.size() + (k < rest % by_rest.size() ? 1 : 0);
     }

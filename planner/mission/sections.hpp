@@ -41,8 +41,10 @@ std::optional<Rgb> read_color(TableReader& in);
 [[nodiscard]] std::span<const std::string_view> source_keys();
 
 /// Whole drones for each part: counts as given, shares by largest remainder, the others share the rest equally.
-/// Properties: (1) sums to the fleet (2) every part has >= 1 (3) a share's count is within 1 of share * fleet.
-/// Errors: invalid_input when the parts ask for more or fewer drones than the fleet has.
+/// Parts that all say how many may leave drones over: those are spare.
+/// Properties: (1) sums to at most the fleet, to all of it when a part does not say how many (2) every part has >= 1
+/// (3) a share's count is within 1 of share * fleet. Errors: invalid_input when the parts ask for more drones than the
+/// fleet has.
 struct CountWish {
     std::optional<std::size_t> drones;
     std::optional<double> share;
