@@ -22,6 +22,8 @@ SEAMS = (
     (r"cblas\.h|lapack\.h|lapacke\.h|openblas", "lapack"), (r"GeographicLib/", "geographiclib"), (r"modbus", "modbus"),
     (r"toml\+\+/|toml\.hpp", "tomlplusplus"), (r"nlohmann/", "json"), (r"zip\.h|zipconf\.h", "libzip"),
     (r"openssl/", "openssl"), (r"hersheyfont\.h", "hershey"), (r"CLI/", "cli11"),
+    (r"ft2build\.h|freetype/", "freetype"), (r"hb[\w-]*\.h", "harfbuzz"), (r"fontconfig/", "fontconfig"),
+    (r"png(conf)?\.h", "libpng"), (r"jpeglib\.h|jerror\.h", "libjpeg"),
 )
 SMALL_GLM = re.compile(r"glm/(vec[234]|mat[234]x[234]|geometric|common|trigonometric|exponential|matrix|"
                        r"ext/\w+|gtc/(quaternion|matrix_access|constants))\.hpp")
