@@ -32,6 +32,7 @@ Result<Mission> parse_mission(std::string_view toml, const std::filesystem::path
     read_keyframes(root, mission);
     read_cues(root, mission);
     read_adjacency(root, mission);
+    read_carrier(root, mission);
     refuse_later_sections(root);
     root.finish();
     if (!problems.empty()) return problems.error();

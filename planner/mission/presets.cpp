@@ -33,9 +33,21 @@ Limits preset_limits(Preset preset) {
             l.ceiling_m = 6.0;
             l.min_navigation_altitude_m = 0.5;
             break;
+        case Preset::airplane:
+            l.plane.emplace();
+            l.min_separation_m = 8.0;
+            l.formation_spacing_m = 12.0;
+            l.acceleration_mps2 = 9.8;  // a turn at 45 degrees of bank
+            l.min_navigation_altitude_m = 30.0;
+            l.ceiling_m = 150.0;
+            break;
     }
-    l.jerk_mps3 = 4.0 * l.acceleration_mps2;
+    l.jerk_mps3 = default_jerk_mps3(l.acceleration_mps2, l.plane.has_value());
     return l;
+}
+
+double default_jerk_mps3(double acceleration_mps2, bool plane) {
+    return plane ? acceleration_mps2 : 4.0 * acceleration_mps2;
 }
 
 double default_spacing_m(double planned_separation_m, double preset_spacing_m) {

@@ -224,12 +224,6 @@ void refuse_later_sections(TableReader& root) {
         light.text("effect");
         light.text("keyframe");
     }
-    if (auto carrier = root.table("carrier")) {
-        root.problems().add(carrier->line(), "carrier: not in this version; remove [carrier]");
-        carrier->know({"waypoints_m"});
-        carrier->number("speed_mps", more_than(0.0));
-        carrier->finish();
-    }
 }
 
 }  // namespace aerogram::planner

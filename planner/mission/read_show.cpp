@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "planner/mission/presets.hpp"
@@ -37,6 +39,59 @@ void read_origin(TableReader& show, Mission& mission) {
     origin->finish();
 }
 
+// [fleet] vehicle is read after the limits, which depend on it.
+bool names_planes(TableReader& root) {
+    const TomlValue* fleet = root.find("fleet");
+    const auto* table = fleet ? std::get_if<TomlTable>(&fleet->data) : nullptr;
+    if (!table) return false;
+    return std::any_of(table->begin(), table->end(), [](const TomlEntry& entry) {
+        const auto* word = std::get_if<std::string>(&entry.value.data);
+        return entry.key == "vehicle" && word && *word == "plane";
+    });
+}
+
+Preset read_preset(TableReader& limits, bool planes) {
+    const auto preset = limits.choice<Preset>("preset", {{"dense", Preset::dense},
+                                                         {"standard", Preset::standard},
+                                                         {"conservative", Preset::conservative},
+                                                         {"indoor", Preset::indoor},
+                                                         {"airplane", Preset::airplane}});
+    const Preset usual = planes ? Preset::airplane : Preset::standard;
+    if (!preset || (*preset == Preset::airplane) == planes) return preset.value_or(usual);
+    limits.bad("preset",
+               planes ? "must be \"airplane\" for fleet.vehicle = \"plane\"" : "needs fleet.vehicle = \"plane\"");
+    return usual;
+}
+
+// Speeds of copters or of planes; the others' keys are refused.
+void read_speeds(TableReader& limits, Limits& l) {
+    constexpr std::array<std::string_view, 3> kCopter{"speed_horizontal_mps", "speed_up_mps", "speed_down_mps"};
+    constexpr std::array<std::string_view, 5> kPlane{"airspeed_min_mps", "airspeed_max_mps", "turn_rate_dps",
+                                                     "climb_mps", "sink_mps"};
+    const auto set = [&](std::string_view key, double& value, const Range& range) {
+        value = limits.number(key, range).value_or(value);
+    };
+    if (!l.plane) {
+        set(kCopter[0], l.speed_horizontal_mps, more_than(0.0, 100.0));
+        set(kCopter[1], l.speed_up_mps, more_than(0.0, 100.0));
+        set(kCopter[2], l.speed_down_mps, more_than(0.0, 100.0));
+        limits.misplaced(kPlane, "needs fleet.vehicle = \"plane\"");
+        return;
+    }
+    PlaneLimits& p = *l.plane;
+    set(kPlane[0], p.airspeed_min_mps, more_than(0.0, 100.0));
+    set(kPlane[1], p.airspeed_max_mps, more_than(0.0, 200.0));
+    set(kPlane[2], p.turn_rate_dps, more_than(0.0, 360.0));
+    set(kPlane[3], p.climb_mps, more_than(0.0, 100.0));
+    set(kPlane[4], p.sink_mps, more_than(0.0, 100.0));
+    limits.misplaced(kCopter, "is for copters; planes have airspeed_max_mps, climb_mps and sink_mps");
+    if (p.airspeed_max_mps <= p.airspeed_min_mps) {
+        const std::string_view key = limits.has("airspeed_max_mps") ? "airspeed_max_mps" : "airspeed_min_mps";
+        limits.bad(key, key == kPlane[1] ? "must be > airspeed_min_mps, which is " + shown(p.airspeed_min_mps)
+                                         : "must be < airspeed_max_mps, which is " + shown(p.airspeed_max_mps));
+    }
+}
+
 }  // namespace
 
 void read_show(TableReader& root, Mission& mission) {
@@ -61,12 +116,9 @@ void read_limits(TableReader& root, Mission& mission) {
     const TomlTable none;
     auto in = root.table("limits");
     TableReader reader = in ? *in : TableReader(none, root.line(), "limits", root.problems());
-    const auto preset = reader.choice<Preset>("preset", {{"dense", Preset::dense},
-                                                         {"standard", Preset::standard},
-                                                         {"conservative", Preset::conservative},
-                                                         {"indoor", Preset::indoor}});
+    const bool planes = names_planes(root);
     Limits& l = mission.limits;
-    l = preset_limits(preset.value_or(Preset::standard));
+    l = preset_limits(read_preset(reader, planes));
     const auto set = [&](std::string_view key, double& value, const Range& range) {
         value = reader.number(key, range).value_or(value);
     };
@@ -81,11 +133,9 @@ void read_limits(TableReader& root, Mission& mission) {
                    "must be >= " + shown(planned_separation_m(l)) + ", min_separation_m plus export_margin_m");
     }
     l.formation_spacing_m = spacing_m.value_or(l.formation_spacing_m);
-    set("speed_horizontal_mps", l.speed_horizontal_mps, more_than(0.0, 100.0));
-    set("speed_up_mps", l.speed_up_mps, more_than(0.0, 100.0));
-    set("speed_down_mps", l.speed_down_mps, more_than(0.0, 100.0));
+    read_speeds(reader, l);
     set("acceleration_mps2", l.acceleration_mps2, more_than(0.0, 100.0));
-    l.jerk_mps3 = 4.0 * l.acceleration_mps2;
+    l.jerk_mps3 = default_jerk_mps3(l.acceleration_mps2, planes);
     set("jerk_mps3", l.jerk_mps3, more_than(0.0, 10000.0));
     set("min_navigation_altitude_m", l.min_navigation_altitude_m, at_least(0.0, 1000.0));
     const double before_m = l.ceiling_m;

@@ -22,7 +22,9 @@ void read_groups(TableReader& root, Mission& mission);
 void read_cues(TableReader& root, Mission& mission);
 void read_adjacency(TableReader& root, Mission& mission);
 void read_keyframes(TableReader& root, Mission& mission);
-/// Refuses what only later versions know: [[light]], [carrier].
+/// [carrier]; after limits and fleet. Planes without one are a problem.
+void read_carrier(TableReader& root, Mission& mission);
+/// Refuses what only later versions know: [[light]].
 void refuse_later_sections(TableReader& root);
 
 /// [keyframe.arrive]. @param in  the keyframe.
