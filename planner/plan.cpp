@@ -5,26 +5,14 @@
 #include <sstream>
 
 #include "geo/units.hpp"
+#include "planner/gather.hpp"
 #include "planner/leg.hpp"
+#include "planner/leg_motion.hpp"
 #include "planner/route.hpp"
 #include "planner/timeline.hpp"
 
 namespace aerogram::planner {
 namespace {
-
-/// Runs task(i) -> Result<T> for each i and gathers the values, or the error of the lowest i.
-template <class T, class Task>
-Result<std::vector<T>> gather(std::size_t count, const Run& run, std::string_view stage, const Task& task) {
-    std::vector<std::optional<Result<T>>> results(count);
-    parallel_for(count, run, stage, [&](std::size_t i) { results[i] = task(i); });
-    std::vector<T> values;
-    for (auto& result : results) {
-        if (!result) return stopped_error();
-        if (!*result) return result->error();
-        values.push_back(std::move(**result));
-    }
-    return values;
-}
 
 Result<std::vector<LegMotion>> plan_legs(const Mission& mission, const Route& route, const std::vector<Leg>& legs,
                                          const Run& run) {
@@ -51,6 +39,20 @@ Result<Certificate> certify_acts(const Mission& mission, const std::vector<Act>&
     return certificate;
 }
 
+/// What the mission asks for beyond its limits, leg by leg.
+void judge_wishes(ActCertificate& act, const LegReport& report) {
+    if (report.required_separation_m <= act.required_separation_m) return;
+    act.required_separation_m = report.required_separation_m;
+    if (keeps(act.separation, act.required_separation_m) || !act.separation.closest) return;
+    const Encounter& e = *act.separation.closest;
+    std::ostringstream text;
+    text << std::setprecision(4) << act.name << ": separation " << e.distance_m << " m of drones " << e.first.number()
+         << " and " << e.second.number() << " at " << std::fixed << std::setprecision(2)
+         << seconds_from_ms(act.start_ms) + e.time_s << " s is below " << std::defaultfloat << std::setprecision(4)
+         << act.required_separation_m << " m (arrive.min_separation_m + export_margin_m)";
+    act.violations.push_back(text.str());
+}
+
 void tell_how(Certificate& certificate, const Timeline& timeline, const std::vector<Leg>& legs,
               const std::vector<LegReport>& reports) {
     for (std::size_t a = 0; a < certificate.acts.size(); ++a) {
@@ -59,10 +61,12 @@ void tell_how(Certificate& certificate, const Timeline& timeline, const std::vec
         if (!timeline.leg_of[a]) continue;
         const LegReport& report = reports[*timeline.leg_of[a]];
         act.method = report.method;
+        act.chosen_because = report.chosen_because;
         act.separation_by = report.separation_by;
         act.separation_rounds = report.separation_rounds;
         act.path_ratio = report.path_ratio;
         act.assignment = legs[*timeline.leg_of[a]].assignment;
+        judge_wishes(act, report);
     }
 }
 

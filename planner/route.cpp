@@ -6,13 +6,14 @@
 
 #include "planner/assignment/assignment.hpp"
 #include "planner/formation/formation.hpp"
+#include "planner/gather.hpp"
+#include "planner/hold_motion.hpp"
+#include "planner/leg_shape.hpp"
+#include "planner/transition/hierarchy.hpp"
 
 namespace aerogram::planner {
 namespace {
 
-/// Take-off climbs this far above the minimum navigation altitude, so that neither the earth's curvature nor a file's
-/// rounding puts a sideways motion below it.
-constexpr double kClearOfFloor_m = 0.1;
 /// A relative duality gap that is rounding only.
 constexpr double kOptimalGap = 1e-12;
 
@@ -29,14 +30,34 @@ std::string describe(const char* how, const Assignment& assignment) {
     return text.str();
 }
 
+/// The groups matched as wholes at a keyframe: those that its arrival names, else all; of nested ones the outermost.
+std::vector<std::size_t> whole_groups(const Route& route, const Arrive& arrive) {
+    std::vector<std::size_t> named;
+    for (const GroupMove& move : arrive.groups) named.push_back(move.group);
+    if (named.empty())
+        for (std::size_t g = 0; g < route.groups.size(); ++g) named.push_back(g);
+    std::vector<std::size_t> outermost;
+    for (const std::size_t g : named) {
+        const auto& drones = route.groups[g].drones;
+        const auto holds_it = [&](std::size_t other) {
+            const auto& theirs = route.groups[other].drones;
+            return other != g && theirs.size() > drones.size() && std::ranges::includes(theirs, drones);
+        };
+        if (!drones.empty() && std::ranges::none_of(named, holds_it)) outermost.push_back(g);
+    }
+    return outermost;
+}
+
 /// The mission's groups, and the drones outside all of them as one more, against the keyframe's parts: those of one
 /// group together, each other part by itself.
-GroupMatch match_groups(const Mission& mission, const Keyframe& keyframe, const Formation& formation) {
+GroupMatch match_groups(const Mission& mission, const Route& route, const Keyframe& keyframe,
+                        const Formation& formation) {
     GroupMatch match;
     std::vector<bool> grouped(mission.fleet.drones, false);
-    for (const Group& group : mission.groups) {
-        match.drones.push_back(group.drones);
-        for (const DroneId drone : group.drones) grouped[drone.value] = true;
+    const std::vector<std::size_t> wholes = whole_groups(route, keyframe.arrive);
+    for (const std::size_t g : wholes) {
+        match.drones.push_back(route.groups[g].drones);
+        for (const DroneId drone : route.groups[g].drones) grouped[drone.value] = true;
     }
     std::vector<DroneId> rest;
     for (std::size_t d = 0; d < grouped.size(); ++d) {
@@ -47,10 +68,10 @@ GroupMatch match_groups(const Mission& mission, const Keyframe& keyframe, const 
 
     std::vector<std::size_t> set_of_part(keyframe.parts.size());
     for (std::size_t p = 0; p < keyframe.parts.size(); ++p) {
-        const auto group = std::ranges::find(mission.groups, keyframe.parts[p].group, &Group::name);
+        const auto group = std::ranges::find_if(
+            wholes, [&](std::size_t g) { return route.groups[g].name == keyframe.parts[p].group; });
         std::optional<std::size_t>* wanted =
-            group == mission.groups.end() ? nullptr
-                                          : &match.wanted[static_cast<std::size_t>(group - mission.groups.begin())];
+            group == wholes.end() ? nullptr : &match.wanted[static_cast<std::size_t>(group - wholes.begin())];
         set_of_part[p] = wanted != nullptr && *wanted ? **wanted : match.slots.size();
         if (set_of_part[p] == match.slots.size()) match.slots.emplace_back();
         if (wanted != nullptr) *wanted = set_of_part[p];
@@ -59,8 +80,8 @@ GroupMatch match_groups(const Mission& mission, const Keyframe& keyframe, const 
     return match;
 }
 
-Result<Assignment> assign(const Mission& mission, const Keyframe& keyframe, const Formation& formation,
-                          const Points& from_m, const Run& run) {
+Result<Assignment> assign(const Mission& mission, const Route& route, const Keyframe& keyframe,
+                          const Formation& formation, const Points& from_m, const Run& run) {
     const SeparationMetric metric{mission.limits.downwash};
     const Arrive& arrive = keyframe.arrive;
     switch (arrive.assign) {
@@ -72,8 +93,8 @@ Result<Assignment> assign(const Mission& mission, const Keyframe& keyframe, cons
         case Assign::groups:
             break;
     }
-    return assign_groups(from_m, formation.points_m, match_groups(mission, keyframe, formation), arrive.pins, metric,
-                         run);
+    return assign_groups(from_m, formation.points_m, match_groups(mission, route, keyframe, formation), arrive.pins,
+                         metric, run);
 }
 
 const char* name_of(Assign assign) {
@@ -90,42 +111,89 @@ const char* name_of(Assign assign) {
     return "groups";
 }
 
+/// Whether a keyframe's matching depends on places alone, not on which drone is where.
+bool by_places_alone(const Arrive& arrive) {
+    return arrive.assign == Assign::shortest && arrive.pins.empty() && arrive.forbid.empty();
+}
+
+/// The keyframes' matchings that need no drone's name, slots of the keyframe before to slots; absent for the others.
+Result<std::vector<std::optional<Assignment>>> match_places(const Mission& mission,
+                                                            const std::vector<Formation>& formations, const Run& run) {
+    const Run quiet{run.stop, nullptr, 1};
+    return gather<std::optional<Assignment>>(
+        formations.size(), run, "assign", [&](std::size_t k) -> Result<std::optional<Assignment>> {
+            if (k == 0 || !by_places_alone(mission.keyframes[k].arrive)) return std::optional<Assignment>{};
+            const Points from_m = after_hold(formations[k - 1].points_m, mission.keyframes[k - 1].motion);
+            auto matched = assign_shortest(from_m, formations[k].points_m, {}, {mission.limits.downwash}, quiet);
+            if (!matched) return matched.error();
+            return std::optional(std::move(*matched));
+        });
+}
+
+/// Fills the groups that the mission wants found, from the first keyframe's neighbourhoods.
+Status find_clusters(const Mission& mission, Route& route, const Run& run) {
+    for (std::size_t g = 0; g < route.groups.size(); ++g) {
+        if (!route.groups[g].cluster) continue;
+        Points among_m;
+        for (const DroneId d : route.groups[g].drones) among_m.push_back(route.stops[0].by_drone_m[d.value]);
+        auto found = spectral_clusters({among_m, delaunay_adjacency(among_m)}, route.groups[g].cluster->count,
+                                       mission.seed, run);
+        if (!found) return found.error();
+        for (std::size_t c = 0; c < found->size(); ++c) {
+            auto& members = route.groups[route.groups[g].inside[c]].drones;
+            for (const DroneId local : (*found)[c]) members.push_back(route.groups[g].drones[local.value]);
+        }
+    }
+    return Done{};
+}
+
+Stop stop_at(const Keyframe& keyframe, Formation formation, Assignment assignment) {
+    Stop stop;
+    stop.keyframe.name = keyframe.name;
+    for (const SlotId slot : assignment.slot_of) stop.by_drone_m.push_back(formation.points_m[slot.value]);
+    stop.left_from_m = after_hold(stop.by_drone_m, keyframe.motion);
+    stop.assignment = describe(name_of(keyframe.arrive.assign), assignment);
+    stop.pairwise = assignment.pairwise;
+    stop.keyframe.formation_m = std::move(formation.points_m);
+    stop.keyframe.colors = std::move(formation.colors);
+    stop.keyframe.slot_of = std::move(assignment.slot_of);
+    return stop;
+}
+
 }  // namespace
 
 Result<Route> build_route(const Mission& mission, const Run& run) {
-    Route route;
-    route.lifted_m = mission.fleet.pads_m;
-    for (Vec3& p : route.lifted_m) p.z += mission.limits.min_navigation_altitude_m + kClearOfFloor_m;
-    const Points* here_m = &route.lifted_m;
-    route.stops.reserve(mission.keyframes.size());  // keeps here_m valid
+    const Run quiet{run.stop, nullptr, 1};
+    auto formations = gather<Formation>(mission.keyframes.size(), run, "formations",
+                                        [&](std::size_t k) { return build_formation(mission, k, quiet); });
+    if (!formations) return formations.error();
+    Route route{pad_layers(mission.fleet.pads_m, mission.limits), {}, mission.groups};
+    auto places = match_places(mission, *formations, run);
+    if (!places) return places.error();
     for (std::size_t k = 0; k < mission.keyframes.size(); ++k) {
-        if (run.stopped()) return stopped_error();
-        run.report("formations", static_cast<double>(k) / static_cast<double>(mission.keyframes.size()));
         const Keyframe& keyframe = mission.keyframes[k];
-        auto formation = build_formation(mission, k, run);
-        if (!formation) return formation.error();
-        auto assignment = assign(mission, keyframe, *formation, *here_m, run);
-        if (!assignment) {
-            const Error& error = assignment.error();
-            if (error.code == ErrorCode::stopped) return error;
-            return Error{ErrorCode::invalid_input,
-                         mission.at(keyframe.arrive.line, keyframe_key(k) + ".arrive: " + error.message)};
+        Assignment assignment;
+        if ((*places)[k]) {
+            assignment = std::move(*(*places)[k]);
+            std::vector<SlotId> slot_of;
+            for (const SlotId before : route.stops.back().keyframe.slot_of)
+                slot_of.push_back(assignment.slot_of[before.value]);
+            assignment.slot_of = std::move(slot_of);
+        } else {
+            const Points& here_m = k == 0 ? route.layers.lifted_m : route.stops.back().left_from_m;
+            auto matched = assign(mission, route, keyframe, (*formations)[k], here_m, run);
+            if (!matched) {
+                const Error& error = matched.error();
+                if (error.code == ErrorCode::stopped) return error;
+                return Error{ErrorCode::invalid_input,
+                             mission.at(keyframe.arrive.line, keyframe_key(k) + ".arrive: " + error.message)};
+            }
+            assignment = std::move(*matched);
         }
-        Stop stop;
-        stop.keyframe.name = keyframe.name;
-        stop.by_drone_m.resize(mission.fleet.drones);
-        for (std::size_t d = 0; d < mission.fleet.drones; ++d) {
-            stop.by_drone_m[d] = formation->points_m[assignment->slot_of[d].value];
-        }
-        stop.assignment = describe(name_of(keyframe.arrive.assign), *assignment);
-        stop.pairwise = assignment->pairwise;
-        stop.keyframe.formation_m = std::move(formation->points_m);
-        stop.keyframe.colors = std::move(formation->colors);
-        stop.keyframe.slot_of = std::move(assignment->slot_of);
-        route.stops.push_back(std::move(stop));
-        here_m = &route.stops.back().by_drone_m;
+        route.stops.push_back(stop_at(keyframe, std::move((*formations)[k]), std::move(assignment)));
+        if (k > 0) continue;
+        if (auto done = find_clusters(mission, route, run); !done) return done.error();
     }
-    run.report("formations", 1.0);
     return route;
 }
 

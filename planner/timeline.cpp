@@ -6,6 +6,8 @@
 
 #include "geo/contract.hpp"
 #include "geo/units.hpp"
+#include "planner/hold_motion.hpp"
+#include "planner/motion/timing.hpp"
 
 namespace aerogram::planner {
 namespace {
@@ -44,8 +46,7 @@ class Builder {
         const bool given = leg.arrives && (motion.wanted_s || mission_.keyframes[leg.last].at_s);
         const Timing timing = given ? Timing::fixed : Timing::free;
         if (duration_ms > 0) append({leg.name, leg.role, timing, 0, duration_ms, std::move(motion.motion)}, index);
-        if (leg.arrives) stand(leg, motion, duration_ms);
-        return Done{};
+        return leg.arrives ? stand(leg, motion, duration_ms) : Status(Done{});
     }
 
     Timeline result() && { return std::move(timeline_); }
@@ -100,7 +101,7 @@ class Builder {
     }
 
     /// Standing times of the keyframes a leg reached, and the hold at its end.
-    void stand(const Leg& leg, const LegMotion& motion, Millis duration_ms) {
+    Status stand(const Leg& leg, const LegMotion& motion, Millis duration_ms) {
         const Millis arrival_ms = now_ms(), start_ms = arrival_ms - duration_ms;
         for (std::size_t k = leg.first; k < leg.last; ++k) {
             const double share = static_cast<double>(motion.keyframe_knots[k - leg.first]) /
@@ -112,8 +113,19 @@ class Builder {
         const Millis hold_ms = milliseconds(mission_.keyframes[leg.last].hold_s);
         standing.stands_from_ms = arrival_ms;
         standing.stands_to_ms = arrival_ms + hold_ms;
-        if (hold_ms > 0)
-            append({standing.name, ActRole::hold, Timing::fixed, 0, hold_ms, Hold{leg.to_m}}, std::nullopt);
+        if (hold_ms == 0) return Done{};
+        const HoldMotion& moves = mission_.keyframes[leg.last].motion;
+        Motion hold = moves.moves() ? Motion(hold_lattice(leg.to_m, moves)) : Motion(Hold{leg.to_m});
+        const ShortestDuration shortest = shortest_duration(hold, mission_.limits);
+        if (hold_ms < shortest.duration_ms) {
+            return Error{ErrorCode::invalid_input,
+                         mission_.at(mission_.keyframes[leg.last].line,
+                                     keyframe_key(leg.last) + ".hold_s = " + number(seconds_from_ms(hold_ms)) +
+                                         ": its motion needs >= " + rounded_up_s(shortest.duration_ms) + " (set by " +
+                                         shortest.set_by + ")")};
+        }
+        append({standing.name, ActRole::hold, Timing::fixed, 0, hold_ms, std::move(hold)}, std::nullopt);
+        return Done{};
     }
 
     const Mission& mission_;

@@ -2,7 +2,7 @@
 #include <vector>
 
 #include "geo/result.hpp"
-#include "planner/leg.hpp"
+#include "planner/leg_motion.hpp"
 #include "planner/mission/mission.hpp"
 #include "planner/motion/flight_plan.hpp"
 
@@ -15,9 +15,10 @@ struct Timeline {
     std::vector<PlannedKeyframe> keyframes;  ///< with their standing times
 };
 
-/// Puts legs and holds one after another: each leg in its shortest time or the designer's longer one; a keyframe with
-/// at_s is reached then, by flying slower or, where the duration is given too, by holding the formation before longer.
-/// Errors: invalid_input when a duration or an at_s is too short, naming the shortest possible.
+/// Puts legs and holds one after another, holds moving where their keyframe does: each leg in its shortest time or the
+/// designer's longer one; a keyframe with at_s is reached then, by flying slower or, where the duration is given too,
+/// by holding the formation before longer. Errors: invalid_input when a duration, an at_s or a moving hold is too
+/// short, naming the shortest possible.
 Result<Timeline> build_timeline(const Mission& mission, const Route& route, const std::vector<Leg>& legs,
                                 std::vector<LegMotion> motions);
 

@@ -1,5 +1,7 @@
 #pragma once
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -33,18 +35,20 @@ inline constexpr double kSeparationTolerance_m = 1e-5;
     return bound.lower_bound_m >= required_m - kSeparationTolerance_m;
 }
 
-/// Bounds the smallest distance of any pair at any instant of the act.
-/// Straight acts: closed form for all pairs. Others: convex hull of the difference's four Bézier control points (z
-/// divided by the downwash), one separating direction, bisection while inconclusive; uniform hash grid per knot
-/// interval.
+/// Bounds the smallest distance of any pair at any instant of the act, in continuous time.
+/// Holds and straight acts: exactly, from the segments along which differences run. Lattices: convex hulls of the
+/// difference's control points (z divided by the downwash), one separating direction, bisection while inconclusive. The
+/// candidates come from a tree of the moving points, never from all pairs of a sane map; wild maps cost more.
 /// @param beyond_m  distances above this need not be resolved: the answer may be this value, with no pair named, when
-/// every
-///                  pair is farther. Pass about twice the required separation.
-/// Properties: (1) lower bound never above a dense sampling's minimum (2) within 2 % of it below beyond_m
-/// (3) permuting drones changes only names (4) scaling time changes nothing.
-/// Errors: stopped.
+/// every pair is farther. Pass about twice the required separation.
+/// @param excused  one a drone, or empty: pairs with a drone that is not 0 here are left out. certify() passes those
+/// that stand on their pads during a take-off or landing, see there. Properties: (1) lower bound never above a dense
+/// sampling's minimum (2) within 2 % of it below beyond_m (3) permuting drones changes only names (4) scaling time
+/// changes nothing (5) nor does the number of threads. Errors: stopped. Accuracy and cost: the bound is within 2e-6 of
+/// the distance named (exact for holds and straight acts) and 1e-9 m; about n log n. 10,000 drones: milliseconds for a
+/// straight act, tens of them for a lattice of 60 intervals.
 Result<SeparationBound> bound_separation(const Motion& motion, double duration_s, const SeparationMetric& metric,
-                                         double beyond_m, const Run& run);
+                                         double beyond_m, const Run& run, std::span<const std::uint8_t> excused = {});
 
 /// What one act was found to do, worst over all drones and instants, and whether that is within the limits.
 struct ActCertificate {
@@ -60,11 +64,12 @@ struct ActCertificate {
     std::optional<double> obstacle_margin_m;            ///< smallest clearance
     std::vector<std::string> violations;                ///< each names limit, value, drones, time; empty: certified
     // How the act came about; filled by the planner, shown in reports.
-    std::string method;         ///< "straight", "spectral", "flow", "hold"
-    std::string separation_by;  ///< "" (none needed), "projection", and the rungs taken
-    int separation_rounds = 0;  ///< projection iterations
-    std::string assignment;     ///< "shortest, gap 0, pairwise", ...
-    double path_ratio = 1.0;    ///< flown length over straight-line length
+    std::string method;          ///< "straight", "spectral", "flow", "hold"
+    std::string chosen_because;  ///< why `auto` chose this method; "" otherwise
+    std::string separation_by;   ///< "" (none needed), "projection", and the rungs taken
+    int separation_rounds = 0;   ///< projection iterations
+    std::string assignment;      ///< "shortest, gap 0, pairwise", ...
+    double path_ratio = 1.0;     ///< flown length over straight-line length
 
     [[nodiscard]] bool certified() const { return violations.empty(); }
 };
