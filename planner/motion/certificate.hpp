@@ -11,6 +11,7 @@
 #include "geo/run.hpp"
 #include "geo/show_frame.hpp"
 #include "planner/motion/act.hpp"
+#include "planner/motion/plane_rules.hpp"
 #include "planner/motion/timing.hpp"
 
 namespace aerogram::planner {
@@ -58,6 +59,7 @@ struct ActCertificate {
     double required_separation_m = 0.0;  ///< planned_separation_m(limits)
     SeparationBound separation;
     Extremes extremes;
+    std::optional<PlaneExtremes> plane;                 ///< of planes alone
     double altitude_min_m = 0.0, altitude_max_m = 0.0;  ///< above own pads
     std::optional<double> geofence_margin_m;            ///< smallest distance to the fence from inside
     std::optional<double> audience_margin_m;            ///< smallest distance to an audience polygon from outside

@@ -129,9 +129,14 @@ class Judge {
         const Limits& l = around_.limits;
         const Extremes e = extremes(act_.motion, seconds_from_ms(act_.duration_ms));
         certificate_.extremes = e;
-        not_above("speed_horizontal_mps", e.speed_horizontal_mps, l.speed_horizontal_mps);
-        not_above("speed_up_mps", e.speed_up_mps, l.speed_up_mps);
-        not_above("speed_down_mps", e.speed_down_mps, l.speed_down_mps);
+        if (l.plane) {
+            certificate_.plane = plane_extremes(act_.motion, seconds_from_ms(act_.duration_ms));
+            for (const std::string& v : plane_violations(*certificate_.plane, *l.plane, act_.start_ms)) violated(v);
+        } else {
+            not_above("speed_horizontal_mps", e.speed_horizontal_mps, l.speed_horizontal_mps);
+            not_above("speed_up_mps", e.speed_up_mps, l.speed_up_mps);
+            not_above("speed_down_mps", e.speed_down_mps, l.speed_down_mps);
+        }
         not_above("acceleration_mps2", e.acceleration_mps2, l.acceleration_mps2);
         not_above("jerk_mps3", e.jerk_mps3, l.jerk_mps3);
     }
