@@ -20,22 +20,35 @@
 /// Everything here mirrors MISSION.md; `line` members point back into the file for error messages.
 namespace aerogram::planner {
 
-enum class TextStyle { stroke, outline, fill, solid };
+enum class TextStyle { stroke, outline, fill };
+enum class TextAlign { left, center, right };
 struct TextSource {
-    std::string text;  ///< UTF-8, may hold '\n'
-    std::string font = "stroke";
-    TextStyle style = TextStyle::stroke;
+    std::string text;                                ///< UTF-8, may hold '\n'
+    std::string font = "stroke";                     ///< "stroke", or the name of an installed family or font
+    std::optional<std::filesystem::path> font_file;  ///< instead of an installed one; resolved like a csv
+    TextStyle style = TextStyle::stroke;             ///< stroke with the font "stroke", one of the others without
+    TextAlign align = TextAlign::center;
+    std::optional<double> outline_share;  ///< fill: share of the drones on the outline; absent: one spacing everywhere
 };
 struct CsvSource {
     std::filesystem::path file;  ///< resolved against the mission's folder
 };
-enum class ShapeKind { line, grid, circle, sphere, helix };
+enum class ShapeKind { line, grid, circle, sphere, helix, disc, ring, square };
 struct ShapeSource {
     ShapeKind kind = ShapeKind::line;
     std::optional<std::uint32_t> rows, columns;  ///< grid
     double turns = 3.0;                          ///< helix
+    double inner = 0.5;                          ///< ring: its hole's width as a share of its own
+    std::optional<double> outline_share;         ///< disc, ring, square: as for filled text
 };
-using Source = std::variant<TextSource, CsvSource, ShapeSource>;
+enum class ImageDensity { even, luminance };
+struct ImageSource {
+    std::filesystem::path file;                 ///< PNG or JPEG; resolved like a csv
+    ImageDensity density = ImageDensity::even;  ///< even: alike wherever something is to be seen
+    double threshold = 0.05;                    ///< luminance times alpha, below which there is nothing to be seen
+    std::optional<std::uint32_t> palette;       ///< at most this many colours
+};
+using Source = std::variant<TextSource, CsvSource, ShapeSource, ImageSource>;
 
 /// Size along the formation's own axes before rotation; absent components follow the aspect, all absent: the smallest
 /// size that holds the formation spacing. Flat sources use width (x) and height (z).

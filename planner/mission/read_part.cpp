@@ -9,9 +9,9 @@ namespace aerogram::planner {
 namespace {
 
 constexpr std::array<std::string_view, 7> kSources{"text", "csv", "shape", "svg", "image", "mesh", "sketch"};
-constexpr std::array<std::string_view, 15> kSourceKeys{"text",    "csv",    "shape", "svg",    "image",
-                                                       "mesh",    "sketch", "font",  "style",  "rows",
-                                                       "columns", "turns",  "inner", "size_m", "depth_m"};
+constexpr std::array<std::string_view, 20> kSourceKeys{
+    "text", "csv",     "shape", "svg",   "image",   "mesh",      "sketch",  "font",          "style",  "align",
+    "rows", "columns", "turns", "inner", "density", "threshold", "palette", "outline_share", "size_m", "depth_m"};
 
 // What size_m may look like; unknown where the source itself is wrong, so that one slip is told once.
 enum class Form { flat, solid, unknown };
@@ -20,17 +20,50 @@ struct Sourced {
     Form form = Form::unknown;
 };
 
+bool is_font_file(std::string_view font) {
+    const std::string ending = std::filesystem::path(font).extension().string();
+    constexpr std::array<std::string_view, 8> kEndings{".ttf", ".otf", ".ttc", ".otc", ".TTF", ".OTF", ".TTC", ".OTC"};
+    return std::find(kEndings.begin(), kEndings.end(), ending) != kEndings.end();
+}
+
+std::optional<double> read_outline_share(TableReader& in) {
+    return in.number("outline_share", {0.0, 1.0});
+}
+
 TextSource read_text(TableReader& in) {
     TextSource out;
     out.text = in.text("text").value_or("");
     const bool blank = std::all_of(out.text.begin(), out.text.end(),
                                    [](char c) { return c == ' ' || c == '\n' || c == '\t' || c == '\r'; });
     if (blank && !out.text.empty()) in.bad("text", "must hold a character that can be seen");
-    if (const auto font = in.text("font"); font && *font != "stroke") {
-        in.bad("font", "font families and font files are not in this version; must be \"stroke\"");
-    }
+    out.font = in.text("font").value_or(out.font);
+    if (is_font_file(out.font)) out.font_file = in.file("font", "a TrueType or OpenType font file");
     using enum TextStyle;
-    in.choice<TextStyle>("style", {{"stroke", stroke}, {"outline", {}}, {"fill", {}}, {"solid", {}}});
+    const bool strokes = out.font == "stroke";
+    const auto style =
+        in.choice<TextStyle>("style", {{"stroke", stroke}, {"outline", outline}, {"fill", fill}, {"solid", {}}});
+    if (style && strokes && *style != stroke) {
+        in.bad("style", "needs a font with outlines; write font = \"DejaVu Sans\" or another family or font file");
+    } else if (style == stroke && !strokes) {
+        in.bad("style", "needs font = \"stroke\"; a font with outlines has \"outline\" and \"fill\"");
+    }
+    out.style = style.value_or(strokes ? stroke : fill);
+    out.align = in.choice<TextAlign>(
+                      "align", {{"left", TextAlign::left}, {"center", TextAlign::center}, {"right", TextAlign::right}})
+                    .value_or(out.align);
+    out.outline_share = read_outline_share(in);
+    if (out.outline_share && out.style != fill) in.bad("outline_share", "only style = \"fill\" has an outline_share");
+    return out;
+}
+
+ImageSource read_image(TableReader& in) {
+    ImageSource out;
+    out.file = in.file("image", "a PNG or JPEG file").value_or("");
+    out.density =
+        in.choice<ImageDensity>("density", {{"even", ImageDensity::even}, {"luminance", ImageDensity::luminance}})
+            .value_or(out.density);
+    out.threshold = in.number("threshold", {0.0, 1.0}).value_or(out.threshold);
+    if (const auto colors = in.integer("palette", 1, 256)) out.palette = static_cast<std::uint32_t>(*colors);
     return out;
 }
 
@@ -42,8 +75,9 @@ Sourced read_shape(TableReader& in) {
                                                      {"circle", circle},
                                                      {"sphere", sphere},
                                                      {"helix", helix},
-                                                     {"disc", {}},
-                                                     {"ring", {}},
+                                                     {"disc", disc},
+                                                     {"ring", ring},
+                                                     {"square", square},
                                                      {"star", {}},
                                                      {"heart", {}},
                                                      {"polygon", {}},
@@ -64,6 +98,12 @@ Sourced read_shape(TableReader& in) {
     const auto turns = in.number("turns", more_than(0.0, 1000.0));
     if (turns && kind && kind != helix) in.bad("turns", "only shape = \"helix\" has turns");
     out.turns = turns.value_or(out.turns);
+    const auto inner = in.number("inner", {0.0, 0.99, true});
+    if (inner && kind && kind != ring) in.bad("inner", "only shape = \"ring\" has inner");
+    out.inner = inner.value_or(out.inner);
+    out.outline_share = read_outline_share(in);
+    const bool area = kind == disc || kind == ring || kind == square;
+    if (out.outline_share && kind && !area) in.bad("outline_share", "only disc, ring and square have an outline_share");
     if (!kind) return {out, Form::unknown};
     return {out, *kind == sphere || *kind == helix ? Form::solid : Form::flat};
 }
@@ -76,10 +116,17 @@ void refuse_foreign_keys(TableReader& in, std::string_view source) {
                 in.bad(key, "belongs to " + std::string(owner) + "; this source is " + std::string(source));
         }
     };
-    only("text", {"font", "style"});
-    only("shape", {"rows", "columns", "turns"});
-    in.later("depth_m", "sources are strokes and points, without depth");
-    in.later("inner", "a key of shape = \"ring\"");
+    only("text", {"font", "style", "align"});
+    only("shape", {"rows", "columns", "turns", "inner"});
+    only("image", {"density", "threshold", "palette"});
+    if (in.has("outline_share") && source != "text" && source != "shape")
+        in.bad("outline_share", "belongs to text and shape; this source is " + std::string(source));
+    in.later("depth_m", "sources are strokes, areas and points, without depth");
+}
+
+void know_source_keys(TableReader& in) {
+    in.know({"font", "style", "align", "rows", "columns", "turns", "inner", "density", "threshold", "palette",
+             "outline_share", "depth_m"});
 }
 
 Sourced read_source(TableReader& in, bool is_part) {
@@ -87,15 +134,15 @@ Sourced read_source(TableReader& in, bool is_part) {
     for (const std::string_view key : kSources) {
         if (in.has(key)) present.push_back(key);
     }
-    const std::string now = "text, csv or shape";
+    const std::string now = "text, image, csv or shape";
     if (present.empty()) {
-        in.know({"font", "style", "rows", "columns", "turns", "inner", "depth_m"});
+        know_source_keys(in);
         in.problems().add(in.line(),
                           in.path() + ": no source; write one of " + now + (is_part ? "" : ", or [[keyframe.part]]s"));
         return {};
     }
     if (present.size() > 1) {
-        in.know({"font", "style", "rows", "columns", "turns", "inner", "depth_m"});
+        know_source_keys(in);
         in.bad(present[1], "second source beside " + std::string(present[0]) + "; must be exactly one of " + now +
                                (is_part ? "" : " (several: [[keyframe.part]]s)"));
         return {};
@@ -103,6 +150,8 @@ Sourced read_source(TableReader& in, bool is_part) {
     Sourced source;
     if (present[0] == "text") {
         source = {read_text(in), Form::flat};
+    } else if (present[0] == "image") {
+        source = {read_image(in), Form::flat};
     } else if (present[0] == "csv") {
         const auto file = in.file("csv", "a CSV file with the header Name,x_m,y_m,z_m[,Red,Green,Blue]");
         source = {CsvSource{file.value_or("")}, Form::solid};
