@@ -36,13 +36,18 @@ TEST(Counts, AreWholeAndSumToTheFleet) {
     EXPECT_THAT(resolved({share(0.333), share(0.333), share(0.333)}, 10), ElementsAre(4, 3, 3));
 }
 
+TEST(Counts, PartsThatAllSayHowManyMayLeaveDronesOver) {
+    EXPECT_THAT(resolved({count(3), count(4)}, 10), ElementsAre(3, 4));
+    EXPECT_THAT(resolved({share(0.5), share(0.25)}, 20), ElementsAre(10, 5));
+}
+
 TEST(Counts, RefuseWhatDoesNotAddUp) {
     const auto why = [](const std::vector<CountWish>& parts, std::size_t fleet) {
         const auto counts = resolve_counts(parts, fleet);
         return counts ? std::string("accepted") : counts.error().message;
     };
-    EXPECT_THAT(why({count(3), count(8)}, 10), HasSubstr("take 11 of 10 drones; must be all of them"));
-    EXPECT_THAT(why({share(0.5), share(0.25)}, 10), HasSubstr("take 7.5 of 10 drones"));
+    EXPECT_THAT(why({count(3), count(8)}, 10), HasSubstr("take 11 of 10 drones; must be at most all of them"));
+    EXPECT_THAT(why({share(0.8), share(0.45)}, 10), HasSubstr("take 12.5 of 10 drones"));
     EXPECT_THAT(why({count(10), kRest}, 10), HasSubstr("must leave at least one"));
     EXPECT_THAT(why({share(0.01), kRest}, 10), HasSubstr("a part would get no drone"));
 }
