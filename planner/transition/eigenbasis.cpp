@@ -69,16 +69,6 @@ Matrix lifted(const Matrix& columns, const Reflection& h) {
     return out;
 }
 
-std::vector<Eigenspace> grouped(const std::vector<double>& ascending) {
-    std::vector<Eigenspace> spaces;
-    const double gap = ascending.empty() ? 0.0 : kEigenspaceTolerance * std::abs(ascending.back());
-    for (std::size_t k = 0; k < ascending.size(); ++k) {
-        if (k == 0 || ascending[k] - ascending[k - 1] > gap) spaces.push_back({k, k});
-        spaces.back().last = k + 1;
-    }
-    return spaces;
-}
-
 double dot(std::span<const double> a, std::span<const double> b) {
     double sum = 0.0;
     for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
@@ -104,6 +94,15 @@ void make_square_to(std::span<double> x, const Matrix& q, std::size_t count) {
 }
 
 }  // namespace
+
+std::vector<Eigenspace> eigenspaces(const std::vector<double>& ascending, double gap) {
+    std::vector<Eigenspace> spaces;
+    for (std::size_t k = 0; k < ascending.size(); ++k) {
+        if (k == 0 || ascending[k] - ascending[k - 1] > gap) spaces.push_back({k, k});
+        spaces.back().last = k + 1;
+    }
+    return spaces;
+}
 
 Matrix column_block(const Matrix& m, std::size_t first, std::size_t last) {
     Matrix out(m.rows, last - first);
@@ -147,7 +146,8 @@ Eigenbasis laplacian_eigenbasis(const AdjacencyGraph& graph) {
     const Reflection h = to_constant(graph.n);
     dense::SymmetricEigen eigen = dense::symmetric_eigen(deflated(laplacian(graph), h));
     Eigenbasis out{lifted(eigen.vectors, h), std::move(eigen.values), {}};
-    out.spaces = grouped(out.values);
+    const double largest = out.values.empty() ? 0.0 : std::abs(out.values.back());
+    out.spaces = eigenspaces(out.values, kEigenspaceTolerance * largest);
     for (const Eigenspace& space : out.spaces) {
         set_column_block(out.modes, space.first, canonical_basis(column_block(out.modes, space.first, space.last)));
     }

@@ -35,6 +35,9 @@ inline constexpr double kEigenspaceTolerance = 1e-6;
 /// Source: Takahashi et al. 2009, section 3.1. O(n³).
 [[nodiscard]] Eigenbasis laplacian_eigenbasis(const AdjacencyGraph& graph);
 
+/// Neighbours in an ascending list that are within `gap` belong together.
+[[nodiscard]] std::vector<Eigenspace> eigenspaces(const std::vector<double>& ascending, double gap);
+
 /// The basis of the columns' span that depends on the span alone: the projections of coordinate vectors, largest rest
 /// first (lengths within 1e-6 count as equal, then the lowest coordinate), made orthonormal. One column: its largest
 /// entry is positive.

@@ -21,12 +21,22 @@ struct GroupMotion {
     std::vector<GroupMotion> inside;  ///< disjoint subsets
 };
 
-/// One method for the whole fleet: straight, spectral or rigid. Errors: stopped.
+/// One method for the whole fleet: straight, spectral or rigid. Obstacle vertices shape spectral transitions; the other
+/// methods leave them out. Errors: stopped.
 Result<Interpolation> interpolation(Method method, const SpectralKeyframe& source, const SpectralKeyframe& target,
                                     const SpectralOptions& spectral, const Run& run);
 
-/// The hierarchy's motion. Properties: (1) ends exact to 1e-9 m (2) without groups inside it is `interpolation` (3) the
-/// barycentre of a group of blend 1 moves as an individual of its parent (4) blend 0 everywhere is the flat motion.
+/// The hierarchy's motion, from the top down. A group's individuals are neighbours as its drones are: edges between two
+/// of them are added up (contracted_graph), which is the drones' Laplacian on motions that move every inner group as
+/// one; a triangulation of the barycentres would forget what the designer cut, joined or weighted between drones.
+/// Inner motion is relative to the barycentre and aligned by the inner group itself, as in the paper: it turns as its
+/// own drones need and not with its parent, else groups that swap places on a half circle would be spun round. Where
+/// both turn alike this gives the same rigid motion; only near a half turn (kNearHalfTurn_rad) "the shorter way round"
+/// is chance, and there a group whose drones turn like its parent (to kSameTurn_rad) goes the parent's way round.
+/// Properties: (1) ends exact to 1e-9 m (2) without groups inside it is `interpolation` (3) the barycentre of a group
+/// of blend 1 moves as an individual of its parent (4) blend 0 everywhere is the flat motion (5) a rigid motion of the
+/// whole fleet is flown rigidly by aligned spectral and rigid groups, half turns included, where every level has three
+/// individuals off one line.
 /// Errors: stopped. Source: Takahashi et al. 2009, section 4.4.
 Result<Interpolation> hierarchical_interpolation(const SpectralKeyframe& source, const SpectralKeyframe& target,
                                                  const GroupMotion& fleet, const Run& run);
