@@ -31,7 +31,8 @@ struct Limits {
     double jerk_mps3 = 8.0;
     double min_navigation_altitude_m = 2.5;
     double ceiling_m = 120.0;
-    std::optional<PlaneLimits> plane;  ///< present: the vehicles are planes, and the three speed limits do not apply
+    std::optional<PlaneLimits> plane =
+        std::nullopt;  ///< present: the vehicles are planes, and the three speed limits do not apply
 };
 
 /// What the planner certifies: the minimum plus what the rounding of file formats may cost.
