@@ -230,7 +230,7 @@ Closest measure(const Fleet& fleet, double beyond_m, const Run& run) {
 /// Knot intervals in a block: as many as keep the strays a small share of the distances in question. The deviation of L
 /// intervals from their chord is about |Δ²P| L² / 8.
 std::size_t block_length(const Fleet& fleet, const Closest& known) {
-    constexpr double kStrayShare = 0.06;
+    constexpr double kStrayShare = 0.3;
     const std::size_t rows = fleet.lattice.rows(), n = fleet.flyers.size();
     const std::size_t every = (n + kObserved - 1) / kObserved, every_row = (rows + 63) / 64;
     double bend_m = 0.0, count = 0.0;

@@ -1,6 +1,7 @@
 #include "planner/motion/swept_tree.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "geo/contract.hpp"
@@ -46,11 +47,42 @@ inline void closer(const Lanes (&w)[3], const Lanes (&u)[3], const Lanes& reach,
     answer = nx * nx + ny * ny + nz * nz < reach * reach;
 }
 
+/// Bit i is set where point i of the leaf may come closer than `reach_m` to some point between the boxes.
+inline unsigned near_boxes(const SweptLeaf& a, const SweptBoxes& b, double reach_m) {
+    unsigned near = 0;
+    for (unsigned half = 0; half < 2; ++half) {
+        const Lanes zero = {0.0, 0.0, 0.0, 0.0};
+        Lanes squared = zero;
+        for (int axis = 0; axis < 3; ++axis) {
+            Lanes w, u;
+            load(a.from[axis] + 4 * half, w);
+            load(a.to[axis] + 4 * half, u);
+            w = b.from_center[axis] - w;
+            u = b.to_center[axis] - u;
+            const Lanes w_low = w - b.from_half[axis], u_low = u - b.to_half[axis];
+            const Lanes w_high = w + b.from_half[axis], u_high = u + b.to_half[axis];
+            const Lanes low = w_low < u_low ? w_low : u_low, high = w_high > u_high ? w_high : u_high;
+            Lanes gap = low > -high ? low : -high;
+            gap = gap > zero ? gap : zero;
+            squared += gap * gap;
+        }
+        Lanes reach;
+        load(a.stray + 4 * half, reach);
+        reach += reach_m + b.stray;
+        reach = reach > zero ? reach : zero;
+        const LaneBits place = {1, 2, 4, 8};
+        const LaneBits bits = (squared < reach * reach) & place;
+        near |= static_cast<unsigned>(bits[0] | bits[1] | bits[2] | bits[3]) << (4 * half);
+    }
+    return near;
+}
+
 AEROGRAM_VECTORIZED
-std::uint64_t close_points(const SweptLeaf& a, const SweptLeaf& b, double limit_m) {
+std::uint64_t close_points(const SweptLeaf& a, const SweptLeaf& b, const SweptBoxes& boxes, double limit_m) {
     LaneBits bits = {0, 0, 0, 0};
-    for (std::uint32_t i = 0; i < a.count; ++i) {
-        for (std::uint32_t half = 0; half < 2; ++half) {
+    for (unsigned near = near_boxes(a, boxes, limit_m); near != 0; near &= near - 1) {
+        const auto i = static_cast<unsigned>(std::countr_zero(near));
+        for (unsigned half = 0; half < 2; ++half) {
             Lanes w[3], u[3], reach;
             for (int axis = 0; axis < 3; ++axis) {
                 load(b.from[axis] + 4 * half, w[axis]);
@@ -134,7 +166,7 @@ void SweptTree::place(std::span<const Vec3> from, std::span<const Vec3> to, std:
 }
 
 void SweptTree::fit(Node& node) const {
-    if (node.left == node.right) {
+    if (node.is_leaf()) {
         const SweptLeaf& leaf = leaves_[node.leaf];
         const auto from = [&](std::uint32_t k) { return Vec3{leaf.from[0][k], leaf.from[1][k], leaf.from[2][k]}; };
         const auto to = [&](std::uint32_t k) { return Vec3{leaf.to[0][k], leaf.to[1][k], leaf.to[2][k]}; };
@@ -188,8 +220,8 @@ double SweptTree::apart_m(const Node& a, const Node& b, double reach_m) {
                     std::min(glm::dot(n, w) - glm::dot(size, w_half), glm::dot(n, u) - glm::dot(size, u_half)));
 }
 
-std::uint64_t SweptTree::close_bits(const SweptLeaf& a, const SweptLeaf& b, double limit_m) {
-    return close_points(a, b, limit_m);
+std::uint64_t SweptTree::close_bits(const Node& a, const Node& b, double limit_m) const {
+    return close_points(leaves_[a.leaf], leaves_[b.leaf], b, limit_m);
 }
 
 }  // namespace aerogram::planner

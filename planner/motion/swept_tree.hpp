@@ -19,6 +19,12 @@ struct alignas(32) SweptLeaf {
     std::uint32_t count = 0;
 };
 
+/// Where the points of a node begin and end, middle and half size, and the largest stray.
+struct SweptBoxes {
+    Vec3 from_center{}, from_half{}, to_center{}, to_half{};
+    double stray = 0.0;
+};
+
 /// Points that all run from one place to another in a straight line and in the same rhythm, each at most its own stray
 /// off that line; so the difference of two runs along a segment, at most both strays off. A kd-tree over the six
 /// coordinates (from, to), in which every pair that may come close is found by descending two nodes at a time. A wild
@@ -36,23 +42,20 @@ class SweptTree {
     /// the points alone.
     template <class Visitor>
     void for_each_close_pair(Visitor& visitor) const {
-        for (std::uint32_t leaf = 0; leaf < leaves_.size(); ++leaf) visit_leaves(leaf, leaf, visitor);
-        if (!nodes_.empty()) visit_within(0, visitor);
-    }
-    /// As above, for those pairs alone that share a leaf: a few of the closest, fast.
-    template <class Visitor>
-    void for_some_close_pairs(Visitor& visitor) const {
-        for (std::uint32_t leaf = 0; leaf < leaves_.size(); ++leaf) visit_leaves(leaf, leaf, visitor);
+        for (const Node& node : nodes_) {
+            if (node.is_leaf()) visit_leaves(node, node, visitor);  // first, to lower the limit
+        }
+        if (!nodes_.empty()) visit_within(nodes_[0], visitor);
     }
 
   private:
-    struct Node {
-        Vec3 from_center{}, from_half{}, to_center{}, to_half{};
-        double stray = 0.0;
+    struct Node : SweptBoxes {
         double size = 0.0;       ///< to choose which of two nodes is opened
-        std::uint32_t left = 0;  ///< nodes; for a leaf left = right = 0
+        std::uint32_t left = 0;  ///< nodes; equal in a leaf
         std::uint32_t right = 0;
         std::uint32_t leaf = 0;
+
+        [[nodiscard]] bool is_leaf() const { return left == right; }
     };
     struct Keyed {
         double key;
@@ -64,38 +67,36 @@ class SweptTree {
     /// No two of the nodes' points come closer than this.
     static double apart_m(const Node& a, const Node& b, double reach_m);
     /// Bit 8 a + b is set where point a of the first leaf and b of the second may be closer than limit_m.
-    static std::uint64_t close_bits(const SweptLeaf& a, const SweptLeaf& b, double limit_m);
+    [[nodiscard]] std::uint64_t close_bits(const Node& a, const Node& b, double limit_m) const;
 
     template <class Visitor>
-    void visit_within(std::uint32_t at, Visitor& visitor) const {
-        const Node& node = nodes_[at];
-        if (node.left == node.right) return;
-        visit_within(node.left, visitor);
-        visit_within(node.right, visitor);
-        visit_between(node.left, node.right, visitor);
+    void visit_within(const Node& node, Visitor& visitor) const {
+        if (node.is_leaf()) return;
+        visit_within(nodes_[node.left], visitor);
+        visit_within(nodes_[node.right], visitor);
+        visit_between(nodes_[node.left], nodes_[node.right], visitor);
     }
     template <class Visitor>
-    void visit_between(std::uint32_t a, std::uint32_t b, Visitor& visitor) const {
-        const Node &first = nodes_[a], &second = nodes_[b];
-        const double reach_m = visitor.limit_m() + first.stray + second.stray;
-        if (apart_m(first, second, reach_m) >= reach_m) return;
-        const bool first_leaf = first.left == first.right, second_leaf = second.left == second.right;
-        if (first_leaf && second_leaf) return visit_leaves(first.leaf, second.leaf, visitor);
-        if (second_leaf || (!first_leaf && first.size >= second.size)) {
-            visit_between(first.left, b, visitor);
-            visit_between(first.right, b, visitor);
+    void visit_between(const Node& a, const Node& b, Visitor& visitor) const {
+        const double reach_m = visitor.limit_m() + a.stray + b.stray;
+        if (apart_m(a, b, reach_m) >= reach_m) return;
+        if (a.is_leaf() && b.is_leaf()) {
+            visit_leaves(a, b, visitor);
+        } else if (b.is_leaf() || (!a.is_leaf() && a.size >= b.size)) {
+            visit_between(nodes_[a.left], b, visitor);
+            visit_between(nodes_[a.right], b, visitor);
         } else {
-            visit_between(a, second.left, visitor);
-            visit_between(a, second.right, visitor);
+            visit_between(a, nodes_[b.left], visitor);
+            visit_between(a, nodes_[b.right], visitor);
         }
     }
     template <class Visitor>
-    void visit_leaves(std::uint32_t a, std::uint32_t b, Visitor& visitor) const {
-        std::uint64_t close = close_bits(leaves_[a], leaves_[b], visitor.limit_m());
-        if (a == b) close &= kAboveDiagonal;
+    void visit_leaves(const Node& a, const Node& b, Visitor& visitor) const {
+        std::uint64_t close = close_bits(a, b, visitor.limit_m());
+        if (&a == &b) close &= kAboveDiagonal;
         for (; close != 0; close &= close - 1) {
             const auto bit = static_cast<unsigned>(std::countr_zero(close));
-            const std::uint32_t i = leaves_[a].index[bit / 8], j = leaves_[b].index[bit % 8];
+            const std::uint32_t i = leaves_[a.leaf].index[bit / 8], j = leaves_[b.leaf].index[bit % 8];
             i < j ? visitor.visit(i, j) : visitor.visit(j, i);
         }
     }
