@@ -27,11 +27,11 @@ std::string in_parts(const std::string& arrive) {
 TEST(Route, FleetIsLiftedStraightAboveItsPads) {
     const Mission mission = show_of(keyframe("a", "circle"));
     const Route route = build_route(mission, aerogram::Run{}).value();
-    ASSERT_EQ(route.lifted_m.size(), 8u);
+    ASSERT_EQ(route.layers.lifted_m.size(), 8u);
     for (std::size_t d = 0; d < 8; ++d) {
-        EXPECT_EQ(Vec2(route.lifted_m[d]), Vec2(mission.fleet.pads_m[d]));
-        EXPECT_GT(route.lifted_m[d].z - mission.fleet.pads_m[d].z, mission.limits.min_navigation_altitude_m);
-        EXPECT_LT(route.lifted_m[d].z - mission.fleet.pads_m[d].z, mission.limits.min_navigation_altitude_m + 0.2);
+        EXPECT_EQ(Vec2(route.layers.lifted_m[d]), Vec2(mission.fleet.pads_m[d]));
+        EXPECT_GT(route.layers.lifted_m[d].z - mission.fleet.pads_m[d].z, mission.limits.min_navigation_altitude_m);
+        EXPECT_LT(route.layers.lifted_m[d].z - mission.fleet.pads_m[d].z, mission.limits.min_navigation_altitude_m + 0.2);
     }
 }
 

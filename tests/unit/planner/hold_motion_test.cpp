@@ -1,0 +1,64 @@
+#include "planner/hold_motion.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "geo/random.hpp"
+
+namespace aerogram::planner {
+namespace {
+
+constexpr double kTurn = 2.0 * std::numbers::pi;
+
+Points cloud(std::uint64_t seed, std::size_t n) {
+    Random random(seed);
+    Points out;
+    for (std::size_t i = 0; i < n; ++i)
+        out.emplace_back(random.between(-30, 30), random.between(-30, 30), random.between(10, 60));
+    return out;
+}
+
+TEST(HoldMotion, AStillFormationStaysWhereItIs) {
+    const Points points_m = cloud(1, 20);
+    EXPECT_EQ(after_hold(points_m, HoldMotion{}), points_m);
+}
+
+TEST(HoldMotion, AQuarterTurnIsCounterClockwiseFromAbove) {
+    const Points after = after_hold({{10, 0, 5}, {-10, 0, 5}}, {kTurn / 4, {1, 2, 3}});
+    EXPECT_LT(glm::distance(after[0], Vec3(1, 12, 8)), 1e-12);
+    EXPECT_LT(glm::distance(after[1], Vec3(1, -8, 8)), 1e-12);
+}
+
+TEST(HoldMotion, EndsAreExactAndAtRest) {
+    for (const double spin : {0.3, -2.0, kTurn, 3.0 * kTurn}) {
+        const Points from_m = cloud(2, 30);
+        const HoldMotion motion{spin, {4, -1, 2}};
+        const Lattice lattice = hold_lattice(from_m, motion);
+        const Points to_m = after_hold(from_m, motion);
+        for (std::size_t i = 0; i < from_m.size(); ++i) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                EXPECT_EQ(lattice.at(k, i), from_m[i]);
+                EXPECT_EQ(lattice.at(lattice.rows() - 1 - k, i), to_m[i]);
+            }
+        }
+    }
+}
+
+/// Distances between drones and to the (drifting) axis stay as they are at every instant, not only at knots.
+TEST(HoldMotion, TheFormationTurnsAsABody) {
+    const Points from_m = cloud(3, 25);
+    const HoldMotion motion{1.75 * kTurn, {10, 0, -5}};
+    const Act act{"", ActRole::hold, Timing::fixed, 0, 60000, hold_lattice(from_m, motion)};
+    Points now(from_m.size());
+    for (int ms = 0; ms <= 60000; ms += 37) {
+        positions(act, ms / 1000.0, now);
+        for (std::size_t i = 1; i < now.size(); ++i) {
+            EXPECT_NEAR(glm::distance(now[i], now[i - 1]), glm::distance(from_m[i], from_m[i - 1]), 2e-3);
+            EXPECT_NEAR(now[i].z - now[0].z, from_m[i].z - from_m[0].z, 1e-9);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace aerogram::planner
