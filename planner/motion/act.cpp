@@ -56,6 +56,17 @@ Vec3 weighted(const std::array<double, 4>& w, const Lattice& lattice, std::size_
            w[3] * lattice.at(row + 3, drone);
 }
 
+/// Positions at a knot; exact where the fleet is at rest there.
+Points knot_positions(const Motion& motion, std::size_t knot) {
+    Points points(drone_count(motion));
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const Vec3 p0 = control_point(motion, knot, i), p1 = control_point(motion, knot + 1, i),
+                   p2 = control_point(motion, knot + 2, i);
+        points[i] = p0 == p1 && p1 == p2 ? p0 : knot_value(p0, p1, p2);
+    }
+    return points;
+}
+
 }  // namespace
 
 std::size_t drone_count(const Motion& motion) {
@@ -138,15 +149,11 @@ void positions(const Act& act, double local_t_s, std::span<Vec3> out) {
 }
 
 Points start_positions(const Motion& motion) {
-    Points points(drone_count(motion));
-    for (std::size_t i = 0; i < points.size(); ++i) points[i] = control_point(motion, 0, i);
-    return points;
+    return knot_positions(motion, 0);
 }
 
 Points end_positions(const Motion& motion) {
-    Points points(drone_count(motion));
-    for (std::size_t i = 0; i < points.size(); ++i) points[i] = control_point(motion, interval_count(motion) + 2, i);
-    return points;
+    return knot_positions(motion, interval_count(motion));
 }
 
 Lattice lattice_through(std::span<const Vec3> samples_m, std::size_t drones) {

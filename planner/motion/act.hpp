@@ -15,7 +15,8 @@
 /// A moving act is a uniform cubic B-spline with one knot step h for all drones. Rows k = 0..K-1 of control points give
 /// K-3 knot intervals; on interval m = 0..K-4 the curve is the cubic of rows m..m+3. Then exactly:
 /// velocity control points are ΔP/h, acceleration is piecewise linear with vertices Δ²P/h², jerk is Δ³P/h³.
-/// An act begins and ends at rest: its first three rows repeat, and its last three.
+/// An act begins and ends at rest, its first three rows repeat, and its last three; unless it is part of a ride (a show
+/// on a moving carrier), whose acts join in motion.
 namespace aerogram::planner {
 
 struct Hold {
@@ -69,6 +70,8 @@ struct Kinematics {
 [[nodiscard]] Kinematics kinematics(const Act& act, DroneId drone, double local_t_s);
 /// All positions at local time t_s (clamped). @param out  drone_count places.
 void positions(const Act& act, double local_t_s, std::span<Vec3> out);
+/// Where the curves begin and end: the control point itself where three rows are equal (at rest), else their
+/// knot_value.
 [[nodiscard]] Points start_positions(const Motion& motion);
 [[nodiscard]] Points end_positions(const Motion& motion);
 

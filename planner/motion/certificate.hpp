@@ -23,8 +23,8 @@ struct Encounter {
     double distance_m = 0.0;  ///< attained there, in the separation metric: the true minimum is not above this
 };
 
-/// Continuous-time separation of an act: lower_bound_m <= true minimum <= closest.distance_m.
-/// Pairs are excused only while both stand on their pads.
+/// Continuous-time separation of an act: lower_bound_m <= true minimum <= closest.distance_m, over all pairs that are
+/// not excused (see certify).
 struct SeparationBound {
     double lower_bound_m = 0.0;
     std::optional<Encounter> closest;  ///< absent with fewer than two drones
@@ -93,7 +93,12 @@ struct Surroundings {
 
 /// Judges one act against limits and airspace in continuous time. A horizontal motion below the minimum navigation
 /// altitude is a violation whatever the act's role.
-/// Errors: stopped.
+/// Separation: a pair is excused in an act of role takeoff or landing in which every drone stays over its own pad, and
+/// only if at least one of the two stands on its pad (both to 1e-6 m) from the act's first instant to its last. Nobody
+/// else is ever excused: two drones that both leave the ground during the act are judged, and so is every pair in an
+/// act of another role. So a fleet whose pads are closer than the separation can leave in layers and waves, and no
+/// other way. Accuracy: altitudes to 1e-4 m; margins to a millimetre near zero and a thousandth elsewhere. Errors:
+/// stopped.
 Result<ActCertificate> certify(const Act& act, const Surroundings& surroundings, const Run& run);
 
 }  // namespace aerogram::planner

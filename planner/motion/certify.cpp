@@ -1,7 +1,7 @@
 /// Judging an act against limits and airspace (certificate.hpp, certify).
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <functional>
 #include <iomanip>
 #include <limits>
 #include <sstream>
@@ -9,6 +9,8 @@
 #include "geo/contract.hpp"
 #include "geo/units.hpp"
 #include "planner/motion/certificate.hpp"
+#include "planner/motion/margin.hpp"
+#include "planner/motion/reach.hpp"
 
 namespace aerogram::planner {
 namespace {
@@ -17,7 +19,6 @@ constexpr double kRelative = 1e-9;  ///< limits are met up to rounding
 constexpr double kAltitudeTolerance_m =
     1e-3;  ///< curvature of a straight chord, of no consequence to a vehicle; verify's too
 constexpr double kStandsStill_m = 1e-6;
-constexpr double kMarginResolution_m = 1e-3;
 
 /// Four digits; what is below a tenth of a millimetre (or of any unit here) reads 0.
 std::string number(double value) {
@@ -32,77 +33,16 @@ std::string seconds(double t_s) {
     return text.str();
 }
 
-/// Where a margin is smallest.
-struct Worst {
-    double margin_m = std::numeric_limits<double>::infinity();
-    std::size_t drone = 0;
-    double time_s = 0.0;
-};
-
 using Curve = std::array<Vec3, 4>;
-
-/// A distance to keep, 1-Lipschitz in its place; upright ones do not depend on height.
-struct Margin {
-    std::function<double(const Vec3&)> at;
-    bool upright = false;
-
-    [[nodiscard]] double radius_m(const Vec3& offset) const {
-        return upright ? glm::length(Vec2(offset)) : glm::length(offset);
-    }
-};
-
-/// Margins are found to a millimetre near zero and to a thousandth elsewhere.
-double resolution_m(double margin_m) {
-    return std::max(kMarginResolution_m, 1e-3 * margin_m);
-}
-
-/// Smallest value of a 1-Lipschitz margin along a Bézier curve: the middle of the hull, less the hull's radius; halves
-/// while that is not yet within the resolution of the smallest value seen.
-void search_margin(const Curve& d, double begin_s, double end_s, std::size_t drone, int depth, const Margin& margin,
-                   Worst& worst, double& lower_m) {
-    Vec3 middle{};
-    for (const Vec3& p : d) middle += 0.25 * p;
-    double radius = 0.0;
-    for (const Vec3& p : d) radius = std::max(radius, margin.radius_m(p - middle));
-    const double at_middle = margin.at(middle);
-    if (at_middle - radius >= worst.margin_m - resolution_m(worst.margin_m)) {
-        lower_m = std::min(lower_m, at_middle - radius);
-        return;
-    }
-    const double at_start = margin.at(d[0]);
-    if (at_start < worst.margin_m) worst = {at_start, drone, begin_s};
-    const double at_end = margin.at(d[3]);
-    if (at_end < worst.margin_m) worst = {at_end, drone, end_s};
-    if (radius <= resolution_m(at_middle) || depth == 0) {
-        lower_m = std::min(lower_m, at_middle - radius);
-        return;
-    }
-    const Vec3 a = 0.5 * (d[0] + d[1]), b = 0.5 * (d[1] + d[2]), c = 0.5 * (d[2] + d[3]);
-    const Vec3 ab = 0.5 * (a + b), bc = 0.5 * (b + c), half = 0.5 * (ab + bc);
-    const double half_s = 0.5 * (begin_s + end_s);
-    search_margin({d[0], a, ab, half}, begin_s, half_s, drone, depth - 1, margin, worst, lower_m);
-    search_margin({half, bc, c, d[3]}, half_s, end_s, drone, depth - 1, margin, worst, lower_m);
-}
-
-/// The smallest margin found; an unfinished search (a stop was asked for) is thrown away by the caller.
-Worst smallest_margin(const Act& act, const Margin& margin, const Run& run) {
-    Worst worst;
-    double lower_m = std::numeric_limits<double>::infinity();
-    const double step_s = knot_step_s(act);
-    for (std::size_t i = 0; i < drone_count(act.motion) && !run.stopped(); ++i) {
-        for (std::size_t m = 0; m < interval_count(act.motion); ++m) {
-            const double begin_s = static_cast<double>(m) * step_s;
-            search_margin(bezier(act.motion, m, i), begin_s, begin_s + step_s, i, 40, margin, worst, lower_m);
-        }
-    }
-    worst.margin_m = std::min(worst.margin_m, lower_m);  // never more than what was proved
-    return worst;
-}
 
 /// Collects one act's certificate.
 class Judge {
   public:
-    Judge(const Act& act, const Surroundings& around) : act_(act), around_(around) {
+    Judge(const Act& act, const Surroundings& around, const Run& run)
+        : act_(act),
+          around_(around),
+          heights_(around.frame),
+          reaches_(reaches(act.motion, around.frame, around.pads_m, run)) {
         certificate_.name = act.name;
         certificate_.role = act.role;
         certificate_.start_ms = act.start_ms;
@@ -113,8 +53,8 @@ class Judge {
     Status judge_separation(const Run& run) {
         const double required = certificate_.required_separation_m;
         const double beyond = 2.0 * std::max(required, around_.limits.formation_spacing_m);
-        auto bound =
-            bound_separation(act_.motion, seconds_from_ms(act_.duration_ms), {around_.limits.downwash}, beyond, run);
+        auto bound = bound_separation(act_.motion, seconds_from_ms(act_.duration_ms), {around_.limits.downwash}, beyond,
+                                      run, excused());
         if (!bound) return bound.error();
         certificate_.separation = *bound;
         if (drone_count(act_.motion) < 2 || keeps(*bound, required)) return Done{};
@@ -142,31 +82,21 @@ class Judge {
     }
 
     /// Altitude is convex in position, so its maximum over a Bézier hull is at a control point; its minimum may be
-    /// below the lowest one by the sagitta of a piece (under a micrometre for pieces of metres).
+    /// below the lowest one by the sagitta of a piece (under a micrometre for pieces of metres). Only the two drones
+    /// that go lowest and highest are converted.
     void judge_altitude() {
-        double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
-        std::size_t highest_drone = 0, highest_interval = 0;
-        for (std::size_t i = 0; i < drone_count(act_.motion); ++i) {
-            for (std::size_t m = 0; m < interval_count(act_.motion); ++m) {
-                const Curve curve = bezier(act_.motion, m, i);
-                double low_m = std::numeric_limits<double>::infinity();
-                for (const Vec3& p : curve) {
-                    const double altitude_m = around_.frame.altitude_above(around_.pads_m[i], p);
-                    low_m = std::min(low_m, altitude_m);
-                    if (altitude_m <= highest) continue;
-                    highest = altitude_m;
-                    highest_drone = i;
-                    highest_interval = m;
-                }
-                lowest = std::min(lowest, low_m);
-                judge_low_flight(i, m, curve, low_m);
-            }
-        }
-        certificate_.altitude_min_m = lowest;
-        certificate_.altitude_max_m = highest;
-        if (highest > around_.limits.ceiling_m + kAltitudeTolerance_m) {
-            violated("altitude " + number(highest) + " m of drone " + std::to_string(highest_drone + 1) + " at " +
-                     show_time(static_cast<double>(highest_interval) * knot_step_s(act_)) +
+        const auto& low = reaches_.altitude_low_m;
+        const auto& high = reaches_.altitude_high_m;
+        if (low.empty()) return;
+        judge_low_flight();
+        const auto lowest = static_cast<std::size_t>(std::min_element(low.begin(), low.end()) - low.begin());
+        const auto highest = static_cast<std::size_t>(std::max_element(high.begin(), high.end()) - high.begin());
+        certificate_.altitude_min_m = altitudes(lowest).low_m;
+        const Altitudes top = altitudes(highest);
+        certificate_.altitude_max_m = top.high_m;
+        if (top.high_m > around_.limits.ceiling_m + kAltitudeTolerance_m) {
+            violated("altitude " + number(top.high_m) + " m of drone " + std::to_string(highest + 1) + " at " +
+                     show_time(static_cast<double>(top.highest_interval) * knot_step_s(act_)) +
                      " is above ceiling_m = " + number(around_.limits.ceiling_m));
         }
     }
@@ -202,20 +132,67 @@ class Judge {
             violated(std::string(limit) + ": reaches " + number(value) + ", limit " + number(most));
     }
 
-    void judge_low_flight(std::size_t drone, std::size_t interval, const Curve& curve, double low_m) {
-        if (low_m >= around_.limits.min_navigation_altitude_m - kAltitudeTolerance_m || low_flight_found_) return;
-        for (const Vec3& p : curve) {
-            if (glm::length(Vec2(p) - Vec2(curve[0])) <= kStandsStill_m) continue;
-            low_flight_found_ = true;
-            violated("drone " + std::to_string(drone + 1) + " moves sideways at " + number(low_m) + " m at " +
-                     show_time(static_cast<double>(interval) * knot_step_s(act_)) +
-                     ", below min_navigation_altitude_m = " + number(around_.limits.min_navigation_altitude_m));
-            return;
+    /// Of one drone, by geodetic conversions.
+    struct Altitudes {
+        double low_m = std::numeric_limits<double>::infinity(), high_m = -low_m;
+        std::size_t highest_interval = 0;
+    };
+    Altitudes altitudes(std::size_t drone) const {
+        Altitudes found;
+        for (std::size_t m = 0; m < interval_count(act_.motion); ++m) {
+            for (const Vec3& p : bezier(act_.motion, m, drone)) {
+                const double altitude_m = around_.frame.altitude_above(around_.pads_m[drone], p);
+                found.low_m = std::min(found.low_m, altitude_m);
+                if (altitude_m <= found.high_m) continue;
+                found.high_m = altitude_m;
+                found.highest_interval = m;
+            }
         }
+        return found;
+    }
+
+    /// The first drone that moves sideways too low, and when.
+    void judge_low_flight() {
+        const double least_m = around_.limits.min_navigation_altitude_m - kAltitudeTolerance_m;
+        for (std::size_t i = 0; i < reaches_.low_m.size(); ++i) {
+            if (reaches_.altitude_low_m[i] >= least_m + reaches_.error_m) continue;
+            if (!reaches_.moves_sideways(i, kStandsStill_m)) continue;
+            for (std::size_t m = 0; m < interval_count(act_.motion); ++m) {
+                if (low_flight_found(i, m, least_m)) return;
+            }
+        }
+    }
+    bool low_flight_found(std::size_t drone, std::size_t interval, double least_m) {
+        const Curve curve = bezier(act_.motion, interval, drone);
+        const auto stays = [&](const Vec3& p) { return glm::length(Vec2(p) - Vec2(curve[0])) <= kStandsStill_m; };
+        if (std::all_of(curve.begin(), curve.end(), stays)) return false;
+        const double pad_m = heights_(around_.pads_m[drone]);
+        const auto high = [&](const Vec3& p) { return heights_(p) - pad_m >= least_m + reaches_.error_m; };
+        if (std::all_of(curve.begin(), curve.end(), high)) return false;
+        double low_m = std::numeric_limits<double>::infinity();
+        for (const Vec3& p : curve) low_m = std::min(low_m, around_.frame.altitude_above(around_.pads_m[drone], p));
+        if (low_m >= least_m) return false;
+        violated("drone " + std::to_string(drone + 1) + " moves sideways at " + number(low_m) + " m at " +
+                 show_time(static_cast<double>(interval) * knot_step_s(act_)) +
+                 ", below min_navigation_altitude_m = " + number(around_.limits.min_navigation_altitude_m));
+        return true;
+    }
+
+    /// During a take-off or landing in which everybody stays over the own pad: those that stand on it throughout.
+    std::vector<std::uint8_t> excused() const {
+        if (act_.role != ActRole::takeoff && act_.role != ActRole::landing) return {};
+        std::vector<std::uint8_t> standing(around_.pads_m.size());
+        for (std::size_t i = 0; i < standing.size(); ++i) {
+            const Vec3& pad = around_.pads_m[i];
+            if (!reaches_.stays_over(i, pad, kStandsStill_m)) return {};
+            standing[i] = std::max(std::abs(reaches_.low_m[i].z - pad.z), std::abs(reaches_.high_m[i].z - pad.z)) <=
+                          kStandsStill_m;
+        }
+        return standing;
     }
 
     double judge_margin(const std::string& breach, const Margin& margin, const Run& run) {
-        const Worst worst = smallest_margin(act_, margin, run);
+        const Worst worst = smallest_margin(act_, reaches_, margin, run);
         if (worst.margin_m < 0.0) {
             violated("drone " + std::to_string(worst.drone + 1) + " is " + breach + " by " + number(-worst.margin_m) +
                      " m at " + show_time(worst.time_s));
@@ -226,7 +203,8 @@ class Judge {
     const Act& act_;
     const Surroundings& around_;
     ActCertificate certificate_;
-    bool low_flight_found_ = false;
+    Heights heights_;
+    Reaches reaches_;
 };
 
 }  // namespace
@@ -244,7 +222,8 @@ double Certificate::min_separation_m() const {
 
 Result<ActCertificate> certify(const Act& act, const Surroundings& surroundings, const Run& run) {
     AEROGRAM_REQUIRE(drone_count(act.motion) == surroundings.pads_m.size(), act.name, drone_count(act.motion));
-    Judge judge(act, surroundings);
+    Judge judge(act, surroundings, run);
+    if (run.stopped()) return stopped_error();
     if (auto done = judge.judge_separation(run); !done) return done.error();
     judge.judge_dynamics();
     judge.judge_altitude();

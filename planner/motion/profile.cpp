@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geo/contract.hpp"
+#include "planner/motion/act.hpp"
 
 namespace aerogram::planner {
 namespace {
@@ -62,6 +63,17 @@ std::vector<double> profile_rows(ProfileKind kind, std::size_t rows) {
     std::fill(s.begin(), s.begin() + 3, 0.0);
     std::fill(s.end() - 3, s.end(), 1.0);
     return s;
+}
+
+double time_share_at(const std::vector<double>& rows, double s) {
+    if (s <= 0.0) return 0.0;
+    double low = 0.0, high = 1.0;
+    const Act unit{"", ActRole::transit, Timing::free, 0, 1000, Straight{{Vec3{}}, {Vec3{1, 0, 0}}, rows}};
+    for (int step = 0; step < 60; ++step) {
+        const double middle = 0.5 * (low + high);
+        (kinematics(unit, DroneId{}, middle).position_m.x < s ? low : high) = middle;
+    }
+    return high;
 }
 
 }  // namespace aerogram::planner

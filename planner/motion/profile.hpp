@@ -15,4 +15,8 @@ namespace aerogram::planner {
 /// @param rows  K >= 7.
 [[nodiscard]] std::vector<double> profile_rows(ProfileKind kind, std::size_t rows);
 
+/// Share of the time at which the spline of non-decreasing rows (a Straight's profile) has come to share s of the way;
+/// 0 for s <= 0. By bisection, to 1e-15.
+[[nodiscard]] double time_share_at(const std::vector<double>& rows, double s);
+
 }  // namespace aerogram::planner

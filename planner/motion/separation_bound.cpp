@@ -7,6 +7,7 @@
 #include "geo/units.hpp"
 #include "planner/motion/certificate.hpp"
 #include "planner/motion/closest.hpp"
+#include "planner/motion/profile.hpp"
 #include "planner/motion/swept_tree.hpp"
 
 namespace aerogram::planner {
@@ -84,18 +85,6 @@ class ClosestRun {
     double share_ = 0.0;  ///< of the way
     bool found_ = false;
 };
-
-/// Share of the time at which the (monotone) profile has come to share s of the way.
-double time_share_at(const std::vector<double>& profile, double s) {
-    if (s <= 0.0) return 0.0;
-    double low = 0.0, high = 1.0;
-    const Act unit{"", ActRole::transit, Timing::free, 0, 1'000'000, Straight{{Vec3{}}, {Vec3{1, 0, 0}}, profile}};
-    for (int step = 0; step < 60; ++step) {
-        const double middle = 0.5 * (low + high);
-        (kinematics(unit, DroneId{}, middle * 1000.0).position_m.x < s ? low : high) = middle;
-    }
-    return high;
-}
 
 Closest bound_straight(std::span<const Vec3> from, std::span<const Vec3> to, const std::vector<double>& profile,
                        double beyond_m, const Run& run) {
