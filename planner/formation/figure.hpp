@@ -24,12 +24,15 @@ struct PartRef {
 /// A source that can be drawn at any size, before it is turned and placed.
 struct Figure {
     Vec3 extent{};  ///< natural width (x), depth (y), height (z); 0 along axes where it is flat
-    /// Exactly part.drones points, in a stable order, after stretching the natural figure by `scale` (> 0) along its
-    /// axes; the middle of its box is at (0, 0, 0), a csv keeps its own origin there. Stretching by s * scale gives s
-    /// times these.
+    /// Exactly part.drones points (a csv may have fewer), in a stable order, after stretching the natural figure by
+    /// `scale` (> 0) along its axes; the middle of its box is at (0, 0, 0), a csv keeps its own origin there.
+    /// Stretching by s * scale gives s times these.
     std::function<Points(const Vec3& scale)> points;
-    std::vector<Rgb> colors;  ///< one a point; empty: the source has none
-    bool in_metres = false;   ///< its natural unit is the metre: without a size it is used as it is
+    std::vector<Rgb> colors{};  ///< one a point; empty: the source has none
+    /// Or the colours of points given before they are stretched; absent: the source has none.
+    std::function<std::vector<Rgb>(const Points& natural)> colors_at{};
+    std::string note{};      ///< what people should know: "resampled from 12000 points"
+    bool in_metres = false;  ///< its natural unit is the metre: without a size it is used as it is
 };
 
 /// The figure of a part's source, for part.drones >= 1 drones.
@@ -37,7 +40,8 @@ struct Figure {
 /// read.
 Result<Figure> figure_of(const PartRef& ref, const Run& run);
 
-Result<Figure> text_figure(const PartRef& ref, const TextSource& source);
+Result<Figure> text_figure(const PartRef& ref, const TextSource& source, const Run& run);
+Result<Figure> image_figure(const PartRef& ref, const ImageSource& source, const Run& run);
 Result<Figure> csv_figure(const PartRef& ref, const CsvSource& source);
 Result<Figure> shape_figure(const PartRef& ref, const ShapeSource& source, const Run& run);
 

@@ -49,6 +49,11 @@ std::string shortest(double value) {
     return text.str();
 }
 
+Points divided(Points points, const Vec3& scale) {
+    for (Vec3& p : points) p /= scale;
+    return points;
+}
+
 class Builder {
   public:
     Builder(const Mission& mission, std::size_t index, const Run& run)
@@ -90,6 +95,7 @@ class Builder {
         };
         SizedFigure drawn = sized(*figure, part.size, mission_.limits.formation_spacing_m, spacing_of);
         AEROGRAM_REQUIRE(drawn.points_m.size() == part.drones, drawn.points_m.size(), part.drones);
+        if (figure->colors_at) figure->colors = figure->colors_at(divided(drawn.points_m, drawn.scale));
         const std::size_t first = out_.points_m.size();
         for (std::size_t i = 0; i < part.drones; ++i) {
             const Vec3 in_keyframe = part_turn * drawn.points_m[i] + part.center_m;

@@ -3,6 +3,8 @@
 #include <utility>
 
 #include "geo/units.hpp"
+#include "planner/formation/area_figure.hpp"
+#include "planner/formation/area_shapes.hpp"
 #include "planner/formation/curve.hpp"
 #include "planner/formation/figure.hpp"
 #include "planner/formation/sphere_points.hpp"
@@ -17,17 +19,14 @@ double real(std::size_t n) {
 /// Along x, left to right.
 Figure line_figure(std::size_t drones) {
     const double length = drones > 1 ? 1.0 : 0.0;
-    return {.extent = {length, 0.0, 0.0},
-            .points =
-                [drones](const Vec3& scale) {
-                    Points points;
-                    for (std::size_t i = 0; i < drones; ++i) {
-                        const double share = drones > 1 ? real(i) / real(drones - 1) - 0.5 : 0.0;
-                        points.emplace_back(share * scale.x, 0.0, 0.0);
-                    }
-                    return points;
-                },
-            .colors = {}};
+    return {.extent = {length, 0.0, 0.0}, .points = [drones](const Vec3& scale) {
+                Points points;
+                for (std::size_t i = 0; i < drones; ++i) {
+                    const double share = drones > 1 ? real(i) / real(drones - 1) - 0.5 : 0.0;
+                    points.emplace_back(share * scale.x, 0.0, 0.0);
+                }
+                return points;
+            }};
 }
 
 struct GridShape {
@@ -72,61 +71,50 @@ Result<GridShape> grid_shape(const PartRef& ref, const ShapeSource& source) {
 
 /// Upright, top row first, each row left to right, an incomplete last row centred.
 Figure grid_figure(GridShape grid, std::size_t drones) {
-    return {.extent = {real(grid.columns - 1), 0.0, real(grid.rows - 1)},
-            .points =
-                [grid, drones](const Vec3& scale) {
-                    Points points;
-                    for (std::size_t i = 0; i < drones; ++i) {
-                        const std::size_t row = i / grid.columns;
-                        const std::size_t in_row = std::min(grid.columns, drones - row * grid.columns);
-                        const double x = real(i % grid.columns) - 0.5 * real(in_row - 1);
-                        points.emplace_back(x * scale.x, 0.0, (0.5 * real(grid.rows - 1) - real(row)) * scale.z);
-                    }
-                    return points;
-                },
-            .colors = {}};
+    return {.extent = {real(grid.columns - 1), 0.0, real(grid.rows - 1)}, .points = [grid, drones](const Vec3& scale) {
+                Points points;
+                for (std::size_t i = 0; i < drones; ++i) {
+                    const std::size_t row = i / grid.columns;
+                    const std::size_t in_row = std::min(grid.columns, drones - row * grid.columns);
+                    const double x = real(i % grid.columns) - 0.5 * real(in_row - 1);
+                    points.emplace_back(x * scale.x, 0.0, (0.5 * real(grid.rows - 1) - real(row)) * scale.z);
+                }
+                return points;
+            }};
 }
 
 /// Upright, from the top clockwise as the audience sees it.
 Figure circle_figure(std::size_t drones) {
-    return {.extent = {1.0, 0.0, 1.0},
-            .points =
-                [drones](const Vec3& scale) {
-                    const auto curve = [&scale](double t) {
-                        return Vec3(0.5 * scale.x * std::sin(2.0 * kPi * t), 0.0,
-                                    0.5 * scale.z * std::cos(2.0 * kPi * t));
-                    };
-                    if (scale.x != scale.z) return equally_spaced(curve, drones, true);
-                    Points points;
-                    for (std::size_t i = 0; i < drones; ++i) points.push_back(curve(real(i) / real(drones)));
-                    return points;
-                },
-            .colors = {}};
+    return {.extent = {1.0, 0.0, 1.0}, .points = [drones](const Vec3& scale) {
+                const auto curve = [&scale](double t) {
+                    return Vec3(0.5 * scale.x * std::sin(2.0 * kPi * t), 0.0, 0.5 * scale.z * std::cos(2.0 * kPi * t));
+                };
+                if (scale.x != scale.z) return equally_spaced(curve, drones, true);
+                Points points;
+                for (std::size_t i = 0; i < drones; ++i) points.push_back(curve(real(i) / real(drones)));
+                return points;
+            }};
 }
 
 /// Around the z axis from the bottom up, counter-clockwise seen from above, beginning on the right (+x).
 Figure helix_figure(std::size_t drones, double turns) {
-    return {.extent = {1.0, 1.0, 1.0},
-            .points =
-                [drones, turns](const Vec3& scale) {
-                    const auto curve = [&scale, turns](double t) {
-                        const double angle = 2.0 * kPi * turns * t;
-                        return scale * Vec3(0.5 * std::cos(angle), 0.5 * std::sin(angle), t - 0.5);
-                    };
-                    if (scale.x != scale.y) return equally_spaced(curve, drones, false);
-                    Points points;
-                    for (std::size_t i = 0; i < drones; ++i) {
-                        points.push_back(curve(drones > 1 ? real(i) / real(drones - 1) : 0.0));
-                    }
-                    return points;
-                },
-            .colors = {}};
+    return {.extent = {1.0, 1.0, 1.0}, .points = [drones, turns](const Vec3& scale) {
+                const auto curve = [&scale, turns](double t) {
+                    const double angle = 2.0 * kPi * turns * t;
+                    return scale * Vec3(0.5 * std::cos(angle), 0.5 * std::sin(angle), t - 0.5);
+                };
+                if (scale.x != scale.y) return equally_spaced(curve, drones, false);
+                Points points;
+                for (std::size_t i = 0; i < drones; ++i) {
+                    points.push_back(curve(drones > 1 ? real(i) / real(drones - 1) : 0.0));
+                }
+                return points;
+            }};
 }
 
 Figure sphere_figure(std::size_t drones, const Run& run) {
     return {.extent = {1.0, 1.0, 1.0},
-            .points = [drones, run](const Vec3& scale) { return spread_on_ellipsoid(0.5 * scale, drones, run); },
-            .colors = {}};
+            .points = [drones, run](const Vec3& scale) { return spread_on_ellipsoid(0.5 * scale, drones, run); }};
 }
 
 }  // namespace
@@ -142,6 +130,12 @@ Result<Figure> shape_figure(const PartRef& ref, const ShapeSource& source, const
             return sphere_figure(drones, run);
         case ShapeKind::helix:
             return helix_figure(drones, source.turns);
+        case ShapeKind::disc:
+            return filled_figure(disc_region(), drones, source.outline_share, run);
+        case ShapeKind::ring:
+            return filled_figure(ring_region(source.inner), drones, source.outline_share, run);
+        case ShapeKind::square:
+            return filled_figure(square_region(), drones, source.outline_share, run);
         case ShapeKind::grid:
             break;
     }

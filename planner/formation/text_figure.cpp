@@ -2,7 +2,9 @@
 #include <limits>
 #include <memory>
 
+#include "planner/formation/area_figure.hpp"
 #include "planner/formation/figure.hpp"
+#include "planner/formation/outline_text.hpp"
 #include "planner/formation/stroke_graph.hpp"
 #include "planner/formation/stroke_sampling.hpp"
 #include "planner/formation/text_layout.hpp"
@@ -44,16 +46,23 @@ std::string quoted(const std::string& text) {
     return out + "\"";
 }
 
+Result<Figure> in_outlines(const PartRef& ref, const TextSource& source, const Run& run) {
+    auto region = outline_text(source);
+    if (!region)
+        return Error{region.error().code,
+                     ref.error(".text = " + quoted(source.text) + ": " + region.error().message).message};
+    if (source.style == TextStyle::outline) return outlined_figure(std::move(*region), ref.part.drones);
+    return filled_figure(std::move(*region), ref.part.drones, source.outline_share, run);
+}
+
 }  // namespace
 
-Result<Figure> text_figure(const PartRef& ref, const TextSource& source) {
+Result<Figure> text_figure(const PartRef& ref, const TextSource& source, const Run& run) {
+    if (source.style != TextStyle::stroke) return in_outlines(ref, source, run);
     const std::string key = ".text = " + quoted(source.text) + ": ";
-    if (source.font != "stroke")
-        return ref.error(".font = \"" + source.font + "\": not in this version; use \"stroke\"");
-    if (source.style != TextStyle::stroke) return ref.error(".style: not in this version; use \"stroke\"");
     const Result<StrokeFont> font = load_stroke_font();
     if (!font) return Error{font.error().code, ref.error(key + font.error().message).message};
-    const auto letters = lay_out(source.text, *font);
+    const auto letters = lay_out(source.text, *font, source.align);
     if (!letters) return ref.error(key + letters.error().message);
 
     const std::size_t drones = ref.part.drones;

@@ -1,31 +1,11 @@
 #include "planner/formation/text_layout.hpp"
 
-#include <algorithm>
-#include <cstdio>
 #include <string>
+
+#include "planner/formation/utf8.hpp"
 
 namespace aerogram::planner {
 namespace {
-
-/// The bytes of the UTF-8 character at the text's start; one byte where it is malformed.
-std::string_view first_character(std::string_view text) {
-    const auto lead = static_cast<unsigned char>(text.front());
-    const std::size_t length = lead < 0xC0 ? 1 : lead < 0xE0 ? 2 : lead < 0xF0 ? 3 : 4;
-    for (std::size_t i = 1; i < length; ++i) {
-        if (i >= text.size() || (static_cast<unsigned char>(text[i]) & 0xC0U) != 0x80U) return text.substr(0, 1);
-    }
-    return text.substr(0, length);
-}
-
-/// "U+00E9" of one character as first_character() cut it.
-std::string code_point(std::string_view character) {
-    const auto lead = static_cast<unsigned char>(character.front());
-    unsigned value = character.size() == 1 ? lead : lead & (0x7FU >> character.size());
-    for (const char c : character.substr(1)) value = value << 6U | (static_cast<unsigned char>(c) & 0x3FU);
-    char text[16];
-    std::snprintf(text, sizeof text, "U+%04X", value);
-    return text;
-}
 
 const Glyph* glyph_of(std::string_view character, const StrokeFont& font) {
     const auto code = static_cast<unsigned char>(character.front());
@@ -33,24 +13,21 @@ const Glyph* glyph_of(std::string_view character, const StrokeFont& font) {
 }
 
 Error unknown_character(std::string_view character) {
-    const auto lead = static_cast<unsigned char>(character.front());
-    const bool shown = lead >= 0x20 && lead != 0x7F && (lead < 0x80 || character.size() > 1);
-    const std::string name =
-        shown ? "\"" + std::string(character) + "\" (" + code_point(character) + ")" : code_point(character);
-    return {ErrorCode::invalid_input,
-            "character " + name + " is not in the stroke font, which has the printable characters of ASCII"};
+    return {ErrorCode::invalid_input, "character " + name_of_character(character) +
+                                          " is not in the stroke font, which has the printable characters of ASCII"};
 }
 
 }  // namespace
 
-Result<std::vector<std::vector<Stroke>>> lay_out(std::string_view utf8, const StrokeFont& font) {
+Result<std::vector<std::vector<Stroke>>> lay_out(std::string_view utf8, const StrokeFont& font, TextAlign align) {
+    const double before = line_start_share(align);
     std::vector<std::vector<Stroke>> letters;
     std::size_t line_start = 0;  // into letters
     Vec2 pen{};
     const auto end_line = [&] {
         for (std::size_t i = line_start; i < letters.size(); ++i) {
             for (Stroke& stroke : letters[i]) {
-                for (Vec2& p : stroke) p.x -= 0.5 * pen.x;
+                for (Vec2& p : stroke) p.x -= before * pen.x;
             }
         }
         line_start = letters.size();

@@ -1,0 +1,25 @@
+#pragma once
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "planner/formation/figure.hpp"
+#include "planner/formation/region.hpp"
+
+namespace aerogram::planner {
+
+/// An upright figure whose points depend on its proportions and take long to find: they are sought once for
+/// proportions that differ by less than one part in a hundred, and stretched by the rest.
+/// @param extent  natural width and height. @param sample  the points, the box's middle at (0, 0), after stretching
+/// along x and y.
+[[nodiscard]] Figure flat_figure(const Vec2& extent, std::function<std::vector<Vec2>(const Vec2& stretch)> sample);
+
+/// The inside of a region, filled by `count` points (area_sampling.hpp).
+/// @param region  of positive area.
+[[nodiscard]] Figure filled_figure(Region region, std::size_t count, std::optional<double> outline_share,
+                                   const Run& run);
+
+/// The outline of a region by `count` points: corners first, then equal steps (stroke_sampling.hpp).
+[[nodiscard]] Figure outlined_figure(Region region, std::size_t count);
+
+}  // namespace aerogram::planner
