@@ -38,9 +38,9 @@ Points read_waypoints(TableReader& in) {
         return {};
     }
     for (std::size_t w = 1; w < waypoints.size(); ++w) {
-        if (glm::length(waypoints[w] - waypoints[w - 1]) >= kClosestWaypoints_m) continue;
+        if (glm::length(Vec2(waypoints[w]) - Vec2(waypoints[w - 1])) >= kClosestWaypoints_m) continue;
         in.bad("waypoints_m", "waypoints " + std::to_string(w) + " and " + std::to_string(w + 1) +
-                                  " must be >= " + shown(kClosestWaypoints_m) + " m apart");
+                                  " must be >= " + shown(kClosestWaypoints_m) + " m apart, seen from above");
         return {};
     }
     return waypoints;
@@ -62,7 +62,7 @@ void check_speed(TableReader& in, const Carrier& carrier, const Limits& l) {
     const double down_mps = l.plane ? l.plane->sink_mps : l.speed_down_mps;
     for (std::size_t w = 1; w < carrier.waypoints_m.size(); ++w) {
         const Vec3 way = carrier.waypoints_m[w] - carrier.waypoints_m[w - 1];
-        const double climb_mps = carrier.speed_mps * way.z / glm::length(way);
+        const double climb_mps = carrier.speed_mps * way.z / glm::length(Vec2(way));
         if (climb_mps < up_mps && -climb_mps < down_mps) continue;
         const bool up = climb_mps > 0.0;
         const std::string limit = l.plane ? (up ? "climb_mps" : "sink_mps") : (up ? "speed_up_mps" : "speed_down_mps");
