@@ -178,8 +178,8 @@ struct Fleet {
 /// A route that the whole show rides along at constant speed: formations are placed relative to a point that moves
 /// along it.
 struct Carrier {
-    Points waypoints_m;  ///< >= 2, show frame, neighbours apart
-    double speed_mps = 0.0;
+    Points waypoints_m;  ///< >= 2, show frame, neighbours apart seen from above
+    double speed_mps = 0.0;  ///< over the ground
     bool turn = false;  ///< formations turn with the route: their +y is the direction of flight
     int line = 0;
 };
