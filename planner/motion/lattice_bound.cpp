@@ -18,7 +18,7 @@ namespace aerogram::planner {
 namespace {
 
 constexpr std::size_t kBlocksInTask = 4;  ///< which share the order of one tree
-constexpr std::size_t kSamples = 8;       ///< instants, beside the start, at which the fleet is measured first
+constexpr std::size_t kSamples = 4;       ///< instants, beside the start, at which the fleet is measured first
 constexpr std::size_t kObserved = 128;    ///< drones that stand for the fleet's common motion
 
 /// Control points of one drone over a block: all x, all y, all z, `rows` each.

@@ -16,6 +16,10 @@ struct Differences {
     double second_m = 0.0, third_m = 0.0;                 ///< |Δ²P|, |Δ³P|
 };
 
+double squared(const Vec3& d) {
+    return glm::dot(d, d);
+}
+
 void take_first(Differences& d, const Vec3& step) {
     d.horizontal_m = std::max(d.horizontal_m, glm::length(Vec2(step)));
     d.up_m = std::max(d.up_m, step.z);
@@ -44,18 +48,24 @@ Differences differences(const Straight& straight) {
 Differences differences(const Lattice& lattice) {
     Differences d;
     const std::size_t rows = lattice.rows();
+    double horizontal2 = 0.0, second2 = 0.0, third2 = 0.0;  // one root at the end
     for (std::size_t k = 0; k + 1 < rows; ++k) {
         for (std::size_t i = 0; i < lattice.drones; ++i) {
             const Vec3 first = lattice.at(k + 1, i) - lattice.at(k, i);
-            take_first(d, first);
+            horizontal2 = std::max(horizontal2, first.x * first.x + first.y * first.y);
+            d.up_m = std::max(d.up_m, first.z);
+            d.down_m = std::max(d.down_m, -first.z);
             if (k + 2 >= rows) continue;
             const Vec3 next = lattice.at(k + 2, i) - lattice.at(k + 1, i);
-            d.second_m = std::max(d.second_m, glm::length(next - first));
+            second2 = std::max(second2, squared(next - first));
             if (k + 3 >= rows) continue;
             const Vec3 last = lattice.at(k + 3, i) - lattice.at(k + 2, i);
-            d.third_m = std::max(d.third_m, glm::length(last - 2.0 * next + first));
+            third2 = std::max(third2, squared(last - 2.0 * next + first));
         }
     }
+    d.horizontal_m = std::sqrt(horizontal2);
+    d.second_m = std::sqrt(second2);
+    d.third_m = std::sqrt(third2);
     return d;
 }
 

@@ -131,6 +131,35 @@ TEST(Straight, IsTheLatticeOfItsControlPoints) {
     EXPECT_EQ(end_positions(Motion(straight)), straight.to_m);
 }
 
+/// Part of a ride: rows that do not repeat.
+TEST(Lattice, InMotionAtItsEndsBeginsAndEndsOnItsCurve) {
+    Random random(4);
+    Lattice lattice{3, Points(3 * 11)};
+    for (Vec3& p : lattice.points_m) p = {random.between(-9, 9), random.between(-9, 9), random.between(5, 9)};
+    const Vec3 rest{0.1, 0.2, 0.3};
+    for (const std::size_t k : {0U, 1U, 2U, 8U, 9U, 10U}) lattice.at(k, 2) = rest;
+    const Act act{"x", ActRole::transit, Timing::fixed, 0, 4000, lattice};
+    const Points begin = start_positions(act.motion), end = end_positions(act.motion);
+    for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_LT(glm::length(begin[i] - kinematics(act, DroneId(i), 0.0).position_m), 1e-13);
+        EXPECT_LT(glm::length(end[i] - kinematics(act, DroneId(i), 4.0).position_m), 1e-13);
+    }
+    EXPECT_GT(glm::length(begin[0] - lattice.at(0, 0)), 0.1);
+    EXPECT_EQ(begin[2], rest);  // to the last bit where it stands
+    EXPECT_EQ(end[2], rest);
+}
+
+TEST(Profile, TimeShareIsTheInverseOfTheProfile) {
+    for (const ProfileKind kind : {ProfileKind::minimum_jerk, ProfileKind::trapezoid, ProfileKind::s_curve}) {
+        const auto rows = profile_rows(kind, 33);
+        const Act act{"x", ActRole::transit, Timing::free, 0, 1000, Straight{{Vec3{}}, {Vec3{1, 0, 0}}, rows}};
+        EXPECT_EQ(time_share_at(rows, 0.0), 0.0);
+        for (double s = 0.01; s < 1.0; s += 0.01) {
+            EXPECT_NEAR(kinematics(act, DroneId{}, time_share_at(rows, s)).position_m.x, s, 1e-12);
+        }
+    }
+}
+
 TEST(Profile, IsMonotoneFromRestToRest) {
     for (const ProfileKind kind : {ProfileKind::minimum_jerk, ProfileKind::trapezoid, ProfileKind::s_curve}) {
         double before = 0.0;

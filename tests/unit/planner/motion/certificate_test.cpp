@@ -3,10 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "geo/random.hpp"
-#include "planner/motion/neighbours.hpp"
 #include "planner/motion/profile.hpp"
 
 namespace aerogram::planner {
@@ -151,27 +152,6 @@ TEST(BoundSeparation, StopsWhenAsked) {
     EXPECT_FALSE(bound_separation(straight, 4.0, {}, 3.0, {stop.get_token(), nullptr, 1}));
 }
 
-TEST(NeighbourGrid, FindsEveryClosePairOnce) {
-    Random random(77);
-    for (int round = 0; round < 20; ++round) {
-        Points points(200);
-        for (Vec3& p : points) p = {random.between(-20, 20), random.between(-20, 20), random.between(-4, 4)};
-        std::vector<int> seen(200 * 200, 0);
-        NeighbourGrid(points, 1.7).for_each_pair([&](std::size_t i, std::size_t j) {
-            ASSERT_LT(i, j);
-            ++seen[i * 200 + j];
-        });
-        for (std::size_t i = 0; i < 200; ++i) {
-            for (std::size_t j = i + 1; j < 200; ++j) {
-                EXPECT_LE(seen[i * 200 + j], 1);
-                if (glm::length(points[i] - points[j]) <= 1.7) {
-                    EXPECT_EQ(seen[i * 200 + j], 1);
-                }
-            }
-        }
-    }
-}
-
 Surroundings over_tokyo(std::size_t drones) {
     Surroundings around{geo::ShowFrame({{35.6586, 139.7454, 40.0}, 20.0, std::nullopt}), {}, Points(drones), Limits{}};
     for (std::size_t i = 0; i < drones; ++i) around.pads_m[i] = {3.0 * static_cast<double>(i), 0, 0};
@@ -248,7 +228,8 @@ TEST(Certify, NamesEachBrokenLimit) {
     EXPECT_THAT(fast->violations, ::testing::Contains(HasSubstr("speed_horizontal_mps: reaches 18.7")));
     EXPECT_THAT(fast->violations, ::testing::Contains(HasSubstr("acceleration_mps2")));
     const auto high = certify(straight_act({{0, 0, 100}}, {{0, 0, 121}}, 60000), over_tokyo(1), {});
-    EXPECT_THAT(high->violations, ElementsAre(HasSubstr("altitude 121 m of drone 1 at 68.50 s is above ceiling_m = 120")));
+    EXPECT_THAT(high->violations,
+                ElementsAre(HasSubstr("altitude 121 m of drone 1 at 68.50 s is above ceiling_m = 120")));
     const auto low = certify(straight_act({{0, 0, 2}}, {{5, 0, 2}}, 60000), over_tokyo(1), {});
     EXPECT_THAT(low->violations, ElementsAre(HasSubstr("drone 1 moves sideways at 2 m")));
     const auto vertical = certify(straight_act({{0, 0, 0}}, {{0, 0, 3}}, 60000), over_tokyo(1), {});
@@ -289,6 +270,126 @@ TEST(Certify, MarginsAreNeverMoreThanADenseSamplingFinds) {
         EXPECT_LE(*c->geofence_margin_m, sampled + 1e-9);
         EXPECT_GE(*c->geofence_margin_m, sampled - std::max(5e-3, 2e-3 * sampled));
     }
+}
+
+TEST(Certify, AltitudesAreTheGeodeticOnesOfEveryControlPoint) {
+    Random random(19);
+    Surroundings around = over_tokyo(6);
+    around.limits.ceiling_m = 30.0;
+    for (int round = 0; round < 10; ++round) {
+        const Act act{"x", ActRole::transit, Timing::free, 0, 60000, wandering(6, 33, 12.0 + 400.0 * round, random)};
+        const auto c = certify(act, around, {});
+        double low_m = 1e300, high_m = -1e300;
+        for (std::size_t i = 0; i < 6; ++i) {
+            for (std::size_t m = 0; m < interval_count(act.motion); ++m) {
+                for (const Vec3& p : bezier(act.motion, m, i)) {
+                    const double altitude_m = around.frame.altitude_above(around.pads_m[i], p);
+                    low_m = std::min(low_m, altitude_m);
+                    high_m = std::max(high_m, altitude_m);
+                }
+            }
+        }
+        EXPECT_NEAR(c->altitude_min_m, low_m, 1e-4);
+        EXPECT_NEAR(c->altitude_max_m, high_m, 1e-4);
+        const bool said = std::any_of(c->violations.begin(), c->violations.end(), [](const std::string& v) {
+            return v.find("ceiling_m = 30") != std::string::npos;
+        });
+        EXPECT_EQ(said, high_m > 30.001);
+    }
+}
+
+TEST(Certify, NamesTheFirstDroneThatFliesLowInALattice) {
+    Surroundings around = over_tokyo(3);
+    Lattice lattice{3, {}};
+    const auto rows = profile_rows(ProfileKind::minimum_jerk, 23);
+    for (const double s : rows) {
+        lattice.points_m.insert(lattice.points_m.end(), {{0, 0, 20.0 * s},            // straight up
+                                                         {3.0 + s * s, 0, 20.0 * s},  // sideways from the ground on
+                                                         {6.0 + s, 0, 20.0 * s}});
+    }
+    const auto c = certify({"x", ActRole::transit, Timing::free, 0, 60000, lattice}, around, {});
+    EXPECT_THAT(c->violations, ElementsAre(HasSubstr("drone 2 moves sideways at 0 m at 0.00 s")));
+}
+
+/// Pads half as far apart as the separation: every second drone rises, the others stand.
+TEST(Certify, StandingDronesAreExcusedDuringTakeOffAndLandingAlone) {
+    Surroundings around = over_tokyo(4);
+    for (std::size_t i = 0; i < 4; ++i) around.pads_m[i] = {0.8 * static_cast<double>(i), 0, 0};
+    Points up = around.pads_m;
+    up[0].z = up[2].z = 10.0;
+    for (const auto& [role, first, last] :
+         {std::tuple{ActRole::takeoff, around.pads_m, up}, std::tuple{ActRole::landing, up, around.pads_m}}) {
+        Act act = straight_act(first, last, 20000);
+        act.role = role;
+        const auto c = certify(act, around, {});
+        EXPECT_TRUE(c->certified());
+        EXPECT_EQ(c->separation.closest->first, DroneId(0U));  // the two that fly
+        EXPECT_EQ(c->separation.closest->second, DroneId(2U));
+        EXPECT_NEAR(c->separation.lower_bound_m, 1.6, 1e-8);
+        act.role = ActRole::transit;
+        EXPECT_THAT(certify(act, around, {})->violations, ElementsAre(HasSubstr("separation 0.8 m of drones 1 and 2")));
+    }
+    // Neighbours that leave together are too close, whoever else stands.
+    up[1].z = 10.0;
+    Act together = straight_act(around.pads_m, up, 20000);
+    together.role = ActRole::takeoff;
+    EXPECT_THAT(certify(together, around, {})->violations,
+                ElementsAre(HasSubstr("separation 0.8 m of drones 1 and 2")));
+}
+
+TEST(Certify, NobodyIsExcusedInATakeOffThatLeavesItsPadsSideways) {
+    Surroundings around = over_tokyo(3);
+    for (std::size_t i = 0; i < 3; ++i) around.pads_m[i] = {0.8 * static_cast<double>(i), 0, 0};
+    // The first stands, the second rises, the third flies on above.
+    Act act = straight_act({{0, 0, 0}, {0.8, 0, 0}, {1.6, 0, 20}}, {{0, 0, 0}, {0.8, 0, 10}, {9, 0, 20}}, 20000);
+    act.role = ActRole::takeoff;
+    EXPECT_THAT(certify(act, around, {})->violations, ElementsAre(HasSubstr("separation 0.8 m of drones 1 and 2")));
+    // A hovering drone does not stand, and a pad is one's own.
+    for (const double height_m : {1e-5, 3.0}) {
+        act = straight_act({{0, 0, height_m}, {0.8, 0, 0}, {1.6, 0, 0}}, {{0, 0, height_m}, {0.8, 0, 10}, {1.6, 0, 0}},
+                           20000);
+        act.role = ActRole::takeoff;
+        EXPECT_FALSE(certify(act, around, {})->certified()) << height_m;
+    }
+    act = straight_act({{0.8, 0, 0}, {0, 0, 0}, {1.6, 0, 0}}, {{0.8, 0, 10}, {0, 0, 0}, {1.6, 0, 0}}, 20000);
+    act.role = ActRole::takeoff;
+    EXPECT_FALSE(certify(act, around, {})->certified());
+}
+
+/// The rule, pair by pair, by sampling: excused only while one of the two stands on its pad for the whole act.
+TEST(Certify, TakeOffsOfRandomWavesAreJudgedByTheRule) {
+    Random random(21);
+    int good = 0, bad = 0;
+    for (int round = 0; round < 60; ++round) {
+        const std::size_t n = 2 + random.below(7);
+        Surroundings around = over_tokyo(n);
+        around.limits.speed_up_mps = 50.0;
+        around.limits.acceleration_mps2 = around.limits.jerk_mps3 = 1e3;
+        for (Vec3& pad : around.pads_m) pad = {random.between(0, 4), random.between(0, 4), random.between(0, 0.2)};
+        std::vector<double> top_m(n, 0.0);
+        for (double& top : top_m) top = random.below(2) == 0 ? 0.0 : random.between(3.0, 20.0);
+        Lattice lattice{n, {}};
+        for (const double s : profile_rows(ProfileKind::minimum_jerk, 23)) {
+            for (std::size_t i = 0; i < n; ++i) lattice.points_m.push_back(around.pads_m[i] + Vec3{0, 0, s * top_m[i]});
+        }
+        const Act act{"up", ActRole::takeoff, Timing::free, 0, 10000, lattice};
+        double least_m = 1e300;
+        Points now(n);
+        for (int s = 0; s <= 1000; ++s) {
+            positions(act, 0.01 * s, now);
+            for (std::size_t i = 0; i < n; ++i) {
+                for (std::size_t j = i + 1; j < n; ++j) {
+                    if (top_m[i] > 0.0 && top_m[j] > 0.0) least_m = std::min(least_m, glm::length(now[j] - now[i]));
+                }
+            }
+        }
+        if (std::abs(least_m - 1.55) < 1e-3) continue;
+        const auto c = certify(act, around, {});
+        EXPECT_EQ(c->certified(), least_m >= 1.55) << round;
+        ++(least_m >= 1.55 ? good : bad);
+    }
+    EXPECT_GT(good, 10);
+    EXPECT_GT(bad, 10);
 }
 
 }  // namespace
