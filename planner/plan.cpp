@@ -5,9 +5,11 @@
 #include <sstream>
 
 #include "geo/units.hpp"
+#include "planner/carrier/noses.hpp"
 #include "planner/gather.hpp"
 #include "planner/leg.hpp"
 #include "planner/leg_motion.hpp"
+#include "planner/riding.hpp"
 #include "planner/route.hpp"
 #include "planner/timeline.hpp"
 
@@ -70,6 +72,20 @@ void tell_how(Certificate& certificate, const Timeline& timeline, const std::vec
     }
 }
 
+/// A show on one place: legs and holds on one clock.
+Result<Flown> plan_standing(const Mission& mission, const Run& run) {
+    auto route = build_route(mission, run);
+    if (!route) return route.error();
+    Flown flown{legs_of(mission, *route), {}, {}};
+    auto motions = plan_legs(mission, *route, flown.legs, run);
+    if (!motions) return motions.error();
+    for (const LegMotion& motion : *motions) flown.reports.push_back(motion.report);
+    auto timeline = build_timeline(mission, *route, flown.legs, std::move(*motions));
+    if (!timeline) return timeline.error();
+    flown.timeline = std::move(*timeline);
+    return flown;
+}
+
 Error refusal(const Mission& mission, const Certificate& certificate) {
     std::string message = mission.file.string() + ": this show cannot be flown within its limits";
     for (const std::string& violation : certificate.violations) message += "\n  " + violation;
@@ -82,18 +98,12 @@ Error refusal(const Mission& mission, const Certificate& certificate) {
 }  // namespace
 
 Result<FlightPlan> plan(const Mission& mission, const PlanOptions& options, const Run& run) {
-    auto route = build_route(mission, run);
-    if (!route) return route.error();
-    const std::vector<Leg> legs = legs_of(mission, *route);
-    auto motions = plan_legs(mission, *route, legs, run);
-    if (!motions) return motions.error();
-    std::vector<LegReport> reports;
-    for (const LegMotion& motion : *motions) reports.push_back(motion.report);
-    auto timeline = build_timeline(mission, *route, legs, std::move(*motions));
-    if (!timeline) return timeline.error();
-    auto certificate = certify_acts(mission, timeline->acts, run);
+    auto flown = mission.carrier ? plan_riding(mission, run) : plan_standing(mission, run);
+    if (!flown) return flown.error();
+    Timeline& timeline = flown->timeline;
+    auto certificate = certify_acts(mission, timeline.acts, run);
     if (!certificate) return certificate.error();
-    tell_how(*certificate, *timeline, legs, reports);
+    tell_how(*certificate, timeline, flown->legs, flown->reports);
     if (!certificate->certified() && !options.best_effort) return refusal(mission, *certificate);
 
     FlightPlan plan;
@@ -103,9 +113,13 @@ Result<FlightPlan> plan(const Mission& mission, const PlanOptions& options, cons
     plan.airspace = mission.airspace;
     plan.endurance_s = mission.fleet.endurance_s;
     plan.pads_m = mission.fleet.pads_m;
-    plan.tracks = build_tracks(timeline->keyframes, timeline->acts, mission.fleet.drones);
-    plan.acts = std::move(timeline->acts);
-    plan.keyframes = std::move(timeline->keyframes);
+    plan.tracks = build_tracks(timeline.keyframes, timeline.acts, mission.fleet.drones);
+    if (mission.fleet.vehicle == Vehicle::plane) {
+        for (std::size_t d = 0; d < plan.tracks.size(); ++d)
+            plan.tracks[d].yaw = noses_forward(timeline.acts, DroneId(d));
+    }
+    plan.acts = std::move(timeline.acts);
+    plan.keyframes = std::move(timeline.keyframes);
     plan.cues = mission.cues;
     plan.audio = mission.audio;
     plan.certificate = std::move(*certificate);

@@ -44,6 +44,7 @@ Result<Mission> placed_at_start(const Mission& mission) {
     const Millis tick_ms = ride_tick_ms(mission.fleet.drones);
     Mission placed = mission;
     leave_room(placed.limits, tick_ms);
+    if (placed.fleet.spares == Spares::pads) placed.fleet.spares = Spares::wings;  // pads do not ride
     for (Keyframe& keyframe : placed.keyframes) {
         place(keyframe, path->at(0.0), mission.carrier->turn ? path->yaw_rad(0.0) : 0.0);
         keyframe.hold_s = whole_ticks_s(keyframe.hold_s, tick_ms);

@@ -24,7 +24,8 @@ namespace aerogram::planner {
 
 /// The mission as it is planned before the ride: every keyframe at the start of the route (turned towards it when the
 /// carrier turns), times in whole ticks (holds, durations and at_s rounded up), a little more separation for the refit
-/// of the ride where the spacing leaves room, and for planes the speeds that their acts may be planned with.
+/// of the ride where the spacing leaves room, spare drones on wings (they cannot wait above pads), and for planes the
+/// speeds that their acts may be planned with.
 /// @param mission  with a carrier.
 /// Errors: as CarrierPath::through.
 Result<Mission> placed_at_start(const Mission& mission);

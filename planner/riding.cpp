@@ -1,0 +1,150 @@
+#include "planner/riding.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "geo/units.hpp"
+#include "planner/carrier/ride.hpp"
+#include "planner/gather.hpp"
+#include "planner/leg.hpp"
+#include "planner/route.hpp"
+
+namespace aerogram::planner {
+namespace {
+
+constexpr int kMostRounds = 100;  ///< of lengthening
+
+Status check_beginning(const Mission& mission) {
+    if (mission.fleet.vehicle != Vehicle::plane) return Done{};
+    const Keyframe& first = mission.keyframes.front();
+    const auto refused = [&](const std::string& what) {
+        return Error{ErrorCode::invalid_input, mission.at(first.line, keyframe_key(0) + what)};
+    };
+    if (first.hold_s <= 0.0) return refused(".hold_s = 0: planes begin the show in the first keyframe; hold it");
+    if (first.at_s && *first.at_s > 0.0)
+        return refused(".at_s: planes begin the show in the first keyframe, which stands from 0 s on");
+    return Done{};
+}
+
+/// The legs until the last formation stands. Planes do not fly the first: they begin at its end.
+std::vector<Leg> legs_until_the_last_formation(const std::vector<Leg>& all, bool planes) {
+    std::vector<Leg> legs;
+    bool arrived = false;
+    for (const Leg& leg : all) {
+        if (arrived && !leg.arrives) break;
+        arrived = arrived || leg.arrives;
+        if (!planes || leg.arrives) legs.push_back(leg);
+    }
+    if (planes) legs.front().from_m = legs.front().to_m;
+    return legs;
+}
+
+/// Times in whole ticks; what the planes' first leg would be is nothing.
+void round_times(const Mission& mission, std::vector<LegMotion>& motions) {
+    const Millis tick_ms = ride_tick_ms(mission.fleet.drones);
+    for (LegMotion& motion : motions) {
+        motion.shortest.duration_ms = whole_ticks(motion.shortest.duration_ms, tick_ms);
+        if (motion.wanted_s) {
+            const auto wanted_ms = static_cast<Millis>(std::ceil(*motion.wanted_s * 1000.0 - 1e-6));
+            motion.wanted_s = seconds_from_ms(whole_ticks(wanted_ms, tick_ms));
+        }
+    }
+    if (mission.fleet.vehicle != Vehicle::plane) return;
+    motions.front().motion = Hold{end_positions(motions.front().motion)};
+    motions.front().shortest = {};
+    motions.front().wanted_s.reset();
+}
+
+std::size_t first_ridden(const std::vector<Act>& acts) {
+    const auto held = std::ranges::find(acts, ActRole::hold, &Act::role);
+    return static_cast<std::size_t>(held - acts.begin());
+}
+
+/// Builds the timeline, longer and longer, until the ride holds; puts the ridden acts into it.
+Result<Ride> ride_timeline(const Mission& mission, const Mission& placed, const Route& route,
+                           const std::vector<Leg>& legs, std::vector<LegMotion> motions, const Run& run,
+                           Timeline& timeline) {
+    TooFast last;
+    for (int round = 0; round < kMostRounds; ++round) {
+        run.report("ride", static_cast<double>(round) / kMostRounds);
+        auto built = build_timeline(placed, route, legs, motions);
+        if (!built) return built.error();
+        const std::size_t begin = first_ridden(built->acts);
+        auto out = ride(mission, std::span(built->acts).subspan(begin), run);
+        if (!out) return out.error();
+        if (out->too_fast.empty()) {
+            std::ranges::move(out->acts, built->acts.begin() + static_cast<std::ptrdiff_t>(begin));
+            timeline = std::move(*built);
+            run.report("ride", 1.0);
+            return out;
+        }
+        for (const TooFast& wish : out->too_fast) {
+            last = wish;
+            motions[*built->leg_of[begin + wish.act]].shortest = {wish.duration_ms, wish.limit};
+        }
+    }
+    return Error{ErrorCode::infeasible,
+                 mission.at(mission.carrier->line, "carrier: the flights do not hold " + last.limit +
+                                                       " on this route, however long they are made")};
+}
+
+/// Keyframes as they stand when their time begins.
+void carry_keyframes(const Ride& ride, Millis begin_ms, std::vector<PlannedKeyframe>& keyframes) {
+    for (PlannedKeyframe& keyframe : keyframes) {
+        if (keyframe.stands_from_ms < begin_ms) continue;
+        for (Vec3& p : keyframe.formation_m)
+            p = ride.carrier.carried(p, seconds_from_ms(keyframe.stands_from_ms - begin_ms));
+    }
+}
+
+Status return_home(const Mission& mission, const Route& route, const std::vector<Leg>& all, Flown& flown,
+                   const Run& run) {
+    Points here_m = end_positions(flown.timeline.acts.back().motion);
+    for (auto leg = std::ranges::find_if(all, [](const Leg& l) { return l.name == "return" && !l.arrives; });
+         leg != all.end(); ++leg) {
+        Leg moved = *leg;
+        if (moved.role == ActRole::transit) moved.from_m = here_m;
+        auto motion = plan_leg(mission, route, moved, run);
+        if (!motion) return motion.error();
+        Act act{moved.name,
+                moved.role,
+                Timing::free,
+                flown.timeline.acts.back().end_ms(),
+                motion->shortest.duration_ms,
+                std::move(motion->motion)};
+        flown.legs.push_back(std::move(moved));
+        flown.reports.push_back(std::move(motion->report));
+        if (act.duration_ms == 0) continue;
+        flown.timeline.acts.push_back(std::move(act));
+        flown.timeline.leg_of.push_back(flown.legs.size() - 1);
+    }
+    return Done{};
+}
+
+}  // namespace
+
+Result<Flown> plan_riding(const Mission& mission, const Run& run) {
+    if (auto sound = check_beginning(mission); !sound) return sound.error();
+    const bool planes = mission.fleet.vehicle == Vehicle::plane;
+    const auto placed = placed_at_start(mission);
+    if (!placed) return placed.error();
+    const auto route = build_route(*placed, run);
+    if (!route) return route.error();
+    const std::vector<Leg> all = legs_of(*placed, *route);
+    Flown flown{legs_until_the_last_formation(all, planes), {}, {}};
+    const Run quiet{run.stop, nullptr, 1};
+    auto motions = gather<LegMotion>(flown.legs.size(), run, "transitions",
+                                     [&](std::size_t l) { return plan_leg(*placed, *route, flown.legs[l], quiet); });
+    if (!motions) return motions.error();
+    round_times(mission, *motions);
+    for (const LegMotion& motion : *motions) flown.reports.push_back(motion.report);
+    const auto ridden = ride_timeline(mission, *placed, *route, flown.legs, std::move(*motions), run, flown.timeline);
+    if (!ridden) return ridden.error();
+    carry_keyframes(*ridden, ridden->acts.front().start_ms, flown.timeline.keyframes);
+    if (planes) return flown;
+    if (auto home = return_home(mission, *route, all, flown, run); !home) return home.error();
+    return flown;
+}
+
+}  // namespace aerogram::planner
