@@ -76,6 +76,10 @@ GroupMatch match_groups(const Mission& mission, const Route& route, const Keyfra
         if (set_of_part[p] == match.slots.size()) match.slots.emplace_back();
         if (wanted != nullptr) *wanted = set_of_part[p];
     }
+    if (!formation.spare.empty() && formation.spare.back()) {  // spare slots are a set of their own
+        set_of_part.push_back(match.slots.size());
+        match.slots.emplace_back();
+    }
     for (std::size_t s = 0; s < formation.part.size(); ++s) match.slots[set_of_part[formation.part[s]]].emplace_back(s);
     return match;
 }
@@ -84,12 +88,14 @@ Result<Assignment> assign(const Mission& mission, const Route& route, const Keyf
                           const Formation& formation, const Points& from_m, const Run& run) {
     const SeparationMetric metric{mission.limits.downwash};
     const Arrive& arrive = keyframe.arrive;
+    const MatchRules rules{arrive.pins, arrive.forbid};
     switch (arrive.assign) {
         case Assign::shortest:
-            return assign_shortest(from_m, formation.points_m, arrive.pins, metric, run);
+            return assign_shortest(from_m, formation.points_m, rules, metric, run);
         case Assign::bottleneck:
+            return assign_bottleneck(from_m, formation.points_m, rules, metric, run);
         case Assign::keep:
-            return assign_keep(from_m, formation.points_m, arrive.pins, metric);
+            return assign_keep(from_m, formation.points_m, rules, metric);
         case Assign::groups:
             break;
     }

@@ -3,36 +3,25 @@
 #include "planner/assignment/shortest.hpp"
 
 namespace aerogram::planner {
-namespace {
 
-template <class Id>
-std::vector<Id> first_ids(std::size_t n) {
-    std::vector<Id> ids;
-    for (std::size_t i = 0; i < n; ++i) ids.emplace_back(i);
-    return ids;
-}
-
-}  // namespace
-
-Result<Assignment> assign_shortest(std::span<const Vec3> from_m, std::span<const Vec3> to_m,
-                                   const std::map<DroneId, SlotId>& pins, const SeparationMetric& metric,
-                                   const Run& run) {
-    require_sound(from_m, to_m, pins);
+Result<Assignment> assign_shortest(std::span<const Vec3> from_m, std::span<const Vec3> to_m, const MatchRules& rules,
+                                   const SeparationMetric& metric, const Run& run) {
+    require_sound(from_m, to_m, rules);
     const std::size_t n = from_m.size();
     std::vector<SlotId> slot_of(n);
     const auto gap_m2 =
-        match_shortest(from_m, to_m, first_ids<DroneId>(n), first_ids<SlotId>(n), pins, metric, slot_of, run);
-    if (!gap_m2) return stopped_error();
-    return reported(from_m, to_m, std::move(slot_of), *gap_m2, metric);
+        match_shortest(from_m, to_m, first_ids<DroneId>(n), first_ids<SlotId>(n), rules, metric, slot_of, run);
+    if (!gap_m2) return gap_m2.error();
+    return reported(from_m, to_m, std::move(slot_of), *gap_m2, metric, run);
 }
 
-Assignment assign_keep(std::span<const Vec3> from_m, std::span<const Vec3> to_m, const std::map<DroneId, SlotId>& pins,
-                       const SeparationMetric& metric) {
-    require_sound(from_m, to_m, pins);
+Result<Assignment> assign_keep(std::span<const Vec3> from_m, std::span<const Vec3> to_m, const MatchRules& rules,
+                               const SeparationMetric& metric, const Run& run) {
+    require_sound(from_m, to_m, rules);
     const std::size_t n = from_m.size();
     std::vector<SlotId> slot_of = first_ids<SlotId>(n);
     std::vector<bool> taken(n, false), settled(n, false);
-    for (const auto& [drone, slot] : pins) {
+    for (const auto& [drone, slot] : rules.pins) {
         slot_of[drone.value] = slot;
         taken[slot.value] = settled[drone.value] = true;
     }
@@ -45,7 +34,11 @@ Assignment assign_keep(std::span<const Vec3> from_m, std::span<const Vec3> to_m,
         slot_of[i] = SlotId(vacated);
         taken[vacated] = true;
     }
-    return reported(from_m, to_m, std::move(slot_of), 0.0, metric);
+    for (const auto& [drone, slot] : rules.forbid)
+        if (slot_of[drone.value] == slot)
+            return Error{ErrorCode::infeasible, "drone " + std::to_string(drone.number()) + " would fly to slot " +
+                                                    std::to_string(slot.number()) + ", which is forbidden to it"};
+    return reported(from_m, to_m, std::move(slot_of), 0.0, metric, run);
 }
 
 }  // namespace aerogram::planner

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -11,16 +12,25 @@ namespace {
 constexpr std::uint32_t kNobody = std::numeric_limits<std::uint32_t>::max();
 constexpr double kEpsilonFactor = 5.0;
 constexpr std::size_t kBidsPerStopCheck = 1024;
+/// From this many bidders on the first prices come from a coarse auction between cells of so many; it ends at this
+/// share of a cell's size, and the fine one begins at that one. The time hardly depends on any of the four.
+constexpr std::size_t kCoarsenFrom = 1000;
+constexpr std::uint32_t kCell = 8;
+constexpr double kCoarseLastEpsilon = 0.1, kFineFirstEpsilon = 1.0;
 
 class Auction {
   public:
-    Auction(const Coordinates& bidders, const Coordinates& targets, const Run& run)
+    Auction(const Coordinates& bidders, const Coordinates& targets, std::span<const double> price, const Run& run,
+            const Allowed& allowed)
         : bidders_(bidders),
-          leaves_(targets),
+          targets_(targets),
+          leaves_(targets, price, weights_by_spread(bidders)),
           order_(kd_order(bidders)),
           owner_(targets.size()),
           last_(bidders.size()),
-          run_(run) {}
+          most_(value_range_m2(bidders, targets)),
+          run_(run),
+          allowed_(allowed) {}
 
     /// Everybody bids until everybody has a target whose value is within epsilon of the best. False when stopped.
     bool phase(double epsilon) {
@@ -28,8 +38,11 @@ class Auction {
         for (const std::uint32_t first : order_)
             for (std::uint32_t bidder = first; bidder != kNobody;) {
                 if (++bids_ % kBidsPerStopCheck == 0 && run_.stopped()) return false;
-                const PriceLeaves::Offer offer = leaves_.best(bidders_[bidder], last_[bidder]);
-                leaves_.raise(offer.place, leaves_.price(offer.place) + (offer.value - offer.second) + epsilon);
+                const PriceLeaves::Offer offer = leaves_.best(bidders_[bidder], last_[bidder], bidder, allowed_);
+                AEROGRAM_REQUIRE(std::isfinite(offer.value), bidder);
+                // A bidder without a second choice raises as far as values lie apart, not for ever.
+                const double ahead = std::min(offer.value - offer.second, most_);
+                leaves_.raise(offer.place, leaves_.price(offer.place) + ahead + epsilon);
                 last_[bidder] = offer.place;
                 std::swap(bidder, owner_[offer.place]);
             }
@@ -44,14 +57,97 @@ class Auction {
         }
         return matching;
     }
+    /// The squared cost now, m².
+    [[nodiscard]] double cost_m2() const {
+        double sum = 0.0;
+        for (std::uint32_t place = 0; place < owner_.size(); ++place) {
+            const Vec3 flight = targets_[leaves_.index_at(place)] - bidders_[owner_[place]];
+            sum += glm::dot(flight, flight);
+        }
+        return sum;
+    }
 
   private:
-    const Coordinates& bidders_;
+    const Coordinates &bidders_, &targets_;
     PriceLeaves leaves_;
     std::vector<std::uint32_t> order_, owner_, last_;
+    double most_;
     const Run& run_;
+    const Allowed& allowed_;
     std::size_t bids_ = 0;
 };
+
+/// Barycentres of cells of kCell points, and the mean square distance from them.
+struct Cells {
+    Coordinates center;
+    double size2_m2 = 0.0;
+};
+Cells cells_of(const Coordinates& points) {
+    const std::vector<std::uint32_t> order = kd_order(points, kCell);
+    Cells cells{Coordinates((points.size() + kCell - 1) / kCell)};
+    for (std::size_t c = 0; c < cells.center.size(); ++c) {
+        const std::size_t begin = c * kCell, end = std::min<std::size_t>(begin + kCell, points.size());
+        Vec3 sum{};
+        for (std::size_t k = begin; k < end; ++k) sum += points[order[k]];
+        const Vec3 center = sum / static_cast<double>(end - begin);
+        for (std::size_t k = begin; k < end; ++k) {
+            const Vec3 d = points[order[k]] - center;
+            cells.size2_m2 += glm::dot(d, d) / static_cast<double>(points.size());
+        }
+        cells.center.set(c, center);
+    }
+    return cells;
+}
+
+/// By point y: the most that any of the priced points x offers, 2 x·y - price.
+std::vector<double> best_values(const Coordinates& priced, const std::vector<double>& price,
+                                const Coordinates& points) {
+    const PriceLeaves leaves(priced, price);
+    std::vector<double> best(points.size());
+    for (std::size_t i = 0; i < best.size(); ++i) best[i] = leaves.best(points[i], 0).value;
+    return best;
+}
+
+struct Start {
+    std::vector<double> price;  ///< empty: none is known
+    double epsilon;
+};
+
+std::optional<Matching> solve(const Coordinates& bidders, const Coordinates& targets, const AuctionEnd& end,
+                              const Run& run, const Allowed& allowed, std::string_view stage);
+
+/// A coarse matching's prices carry over by the convex function that they define: worth u of each bidders' cell, then
+/// price(y) = max (2 x·y - u).
+std::optional<Start> start_of(const Coordinates& bidders, const Coordinates& targets, const Run& run) {
+    const double range_m2 = value_range_m2(bidders, targets);
+    const Cells from = cells_of(bidders), to = cells_of(targets);
+    const double size_m2 = std::sqrt(from.size2_m2 * to.size2_m2);
+    // Coincident points have cells without size, which say nothing.
+    if (bidders.size() < kCoarsenFrom || size_m2 < 1e-9 * range_m2) return Start{{}, range_m2 / kEpsilonFactor};
+    const auto coarse = solve(from.center, to.center, {kCoarseLastEpsilon * size_m2}, run, {}, {});
+    if (!coarse) return std::nullopt;
+    const std::vector<double> worth = best_values(to.center, coarse->price, from.center);
+    return Start{best_values(from.center, worth, targets), kFineFirstEpsilon * size_m2};
+}
+
+/// @param stage  reported; empty: no reports.
+std::optional<Matching> solve(const Coordinates& bidders, const Coordinates& targets, const AuctionEnd& end,
+                              const Run& run, const Allowed& allowed, std::string_view stage) {
+    const std::optional<Start> start = start_of(bidders, targets, run);
+    if (!start) return std::nullopt;
+    Auction auction(bidders, targets, start->price, run, allowed);
+    const double first = std::max(start->epsilon, end.last_epsilon);
+    double last = end.last_epsilon;
+    for (double epsilon = first;; epsilon = std::max(epsilon / kEpsilonFactor, last)) {
+        if (!auction.phase(epsilon)) return std::nullopt;
+        if (end.enough_gap > 0.0) {
+            const double gap_m2 = end.enough_gap * gap_scale_m2(bidders, targets, auction.cost_m2());
+            last = std::max(end.last_epsilon, gap_m2 / static_cast<double>(bidders.size()));
+        }
+        if (epsilon <= last) return auction.result();
+        if (!stage.empty()) run.report(stage, std::log(first / epsilon) / std::log(first / end.last_epsilon));
+    }
+}
 
 }  // namespace
 
@@ -59,16 +155,25 @@ double value_range_m2(const Coordinates& bidders, const Coordinates& targets) {
     return radius_of(targets) * (4.0 * radius_of(bidders) + radius_of(targets));
 }
 
-std::optional<Matching> auction(const Coordinates& bidders, const Coordinates& targets, double last_epsilon,
-                                const Run& run) {
-    Auction auction(bidders, targets, run);
-    AEROGRAM_REQUIRE(last_epsilon > 1e-15 * value_range_m2(bidders, targets), last_epsilon);
-    const double first_epsilon = value_range_m2(bidders, targets) / kEpsilonFactor;
-    for (double epsilon = first_epsilon;; epsilon = std::max(epsilon / kEpsilonFactor, last_epsilon)) {
-        if (!auction.phase(epsilon)) return std::nullopt;
-        if (epsilon <= last_epsilon) return auction.result();
-        run.report("assign", std::log(first_epsilon / epsilon) / std::log(first_epsilon / last_epsilon));
+double gap_scale_m2(const Coordinates& bidders, const Coordinates& targets, double cost_m2) {
+    constexpr double kLeastCost = 1e-3;
+    const double sizes_m2 = 4.0 * radius_of(bidders) * radius_of(targets);
+    return std::max(cost_m2, kLeastCost * sizes_m2 * static_cast<double>(bidders.size()));
+}
+
+double cost_m2(const Coordinates& bidders, const Coordinates& targets, const std::vector<std::uint32_t>& target_of) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < bidders.size(); ++i) {
+        const Vec3 flight = targets[target_of[i]] - bidders[i];
+        sum += glm::dot(flight, flight);
     }
+    return sum;
+}
+
+std::optional<Matching> auction(const Coordinates& bidders, const Coordinates& targets, const AuctionEnd& end,
+                                const Run& run, const Allowed& allowed) {
+    AEROGRAM_REQUIRE(end.last_epsilon > 1e-15 * value_range_m2(bidders, targets), end.last_epsilon);
+    return solve(bidders, targets, end, run, allowed, "assign");
 }
 
 }  // namespace aerogram::planner

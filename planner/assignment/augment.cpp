@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <numeric>
@@ -5,6 +6,7 @@
 
 #include "geo/contract.hpp"
 #include "planner/assignment/matching.hpp"
+#include "planner/assignment/price_leaves.hpp"
 
 // Legend: value of target j to bidder i: v_ij = 2 x_i·y_j - price_j; worth u_i = max_j v_ij; slack_ij = u_i - v_ij >=
 // 0. A matching on pairs without slack is optimal.
@@ -32,8 +34,9 @@ double smallest(const std::vector<double>& values, std::size_t from) {
 /// Targets in an order of their own: those already reached by the current search first.
 class Augmenter {
   public:
-    Augmenter(const Coordinates& bidders, const Coordinates& targets, std::vector<double> price)
-        : x_(bidders),
+    Augmenter(const Coordinates& bidders, const Coordinates& targets, std::vector<double> price, const Allowed& allowed)
+        : allowed_(allowed),
+          x_(bidders),
           y_(targets),
           price_(std::move(price)),
           id_(targets.size()),
@@ -53,13 +56,15 @@ class Augmenter {
         std::uint32_t best_j = 0;
         for (std::uint32_t j = 0; j < y_.size(); ++j) {
             const double v = value(x_[i], y_, price_[j], j);
-            if (v > best) {
+            if (v > best && allowed_(x_, y_, i, j)) {
                 best = v;
                 best_j = j;
             }
         }
         worth_[i] = best;
-        if (wish != kNobody && owner_[wish] == kNobody && value(x_[i], y_, price_[wish], wish) == best) best_j = wish;
+        if (wish != kNobody && allowed_(x_, y_, i, wish) && owner_[wish] == kNobody &&
+            value(x_[i], y_, price_[wish], wish) == best)
+            best_j = wish;
         if (owner_[best_j] != kNobody) return;
         owner_[best_j] = i;
         target_of_[i] = best_j;
@@ -96,7 +101,12 @@ class Augmenter {
     }
 
   private:
+    /// Ways from bidder i, whose own target is reached at so_far.
     void relax(std::uint32_t i, double so_far, std::size_t from) {
+        if (!allowed_.everything()) {
+            relax_allowed(i, so_far, from);
+            return;
+        }
         const double x = 2.0 * x_.x[i], y = 2.0 * x_.y[i], z = 2.0 * x_.z[i], base = so_far + worth_[i];
         const std::int64_t me = i;
         for (std::size_t k = from; k < y_.size(); ++k) {
@@ -109,6 +119,19 @@ class Augmenter {
         for (std::size_t k = from; k < y_.size(); ++k) distance_[k] = distance_[k] < so_far ? so_far : distance_[k];
     }
 
+    void relax_allowed(std::uint32_t i, double so_far, std::size_t from) {
+        const auto forbidden = allowed_.forbidden_to(i);
+        for (std::size_t k = from; k < y_.size(); ++k) {
+            if (allowed_.distance2_m2(x_[i], y_[k]) > allowed_.reach2_m2 ||
+                std::binary_search(forbidden.begin(), forbidden.end(), id_[k]))
+                continue;
+            const double d = std::max(so_far, so_far + worth_[i] - value(x_[i], y_, price_[k], k));
+            if (d >= distance_[k]) continue;
+            distance_[k] = d;
+            from_[k] = i;
+        }
+    }
+
     /// Where the smallest distance is; a free target first, then the lowest index.
     [[nodiscard]] std::size_t nearest(double distance, std::size_t from) const {
         std::size_t best = y_.size();
@@ -118,7 +141,7 @@ class Augmenter {
                 std::pair(owner_[k] != kNobody, id_[k]) < std::pair(owner_[best] != kNobody, id_[best]))
                 best = k;
         }
-        AEROGRAM_REQUIRE(best < y_.size(), distance);
+        AEROGRAM_REQUIRE(best < y_.size() && distance < kInfinity, distance);
         return best;
     }
 
@@ -135,6 +158,7 @@ class Augmenter {
         place_[id_[b]] = static_cast<std::uint32_t>(b);
     }
 
+    const Allowed& allowed_;
     const Coordinates& x_;
     Coordinates y_;
     std::vector<double> price_;
@@ -148,14 +172,14 @@ class Augmenter {
 
 }  // namespace
 
-std::optional<Matching> augment(const Coordinates& bidders, const Coordinates& targets, Matching start,
-                                const Run& run) {
+std::optional<Matching> augment(const Coordinates& bidders, const Coordinates& targets, Matching start, const Run& run,
+                                const Allowed& allowed) {
     const auto n = static_cast<std::uint32_t>(targets.size());
     AEROGRAM_REQUIRE(bidders.size() == n, bidders.size(), n);
     start.target_of.resize(n, kNobody);
     if (start.price.empty())
         for (std::uint32_t j = 0; j < n; ++j) start.price.push_back(glm::dot(targets[j], targets[j]));
-    Augmenter augmenter(bidders, targets, std::move(start.price));
+    Augmenter augmenter(bidders, targets, std::move(start.price), allowed);
     for (std::uint32_t i = 0; i < n; ++i) augmenter.start(i, start.target_of[i]);
     for (std::uint32_t i = 0; i < n; ++i) {
         if (run.stopped()) return std::nullopt;
@@ -164,15 +188,14 @@ std::optional<Matching> augment(const Coordinates& bidders, const Coordinates& t
     return augmenter.result();
 }
 
-double duality_gap_m2(const Coordinates& bidders, const Coordinates& targets, const Matching& matching) {
+double duality_gap_m2(const Coordinates& bidders, const Coordinates& targets, const Matching& matching,
+                      const Allowed& allowed) {
+    const PriceLeaves leaves(targets, matching.price, weights_by_spread(bidders));
     double gap_m2 = 0.0;
-    for (std::size_t i = 0; i < bidders.size(); ++i) {
+    for (std::uint32_t i = 0; i < bidders.size(); ++i) {
         const std::uint32_t own = matching.target_of[i];
         const double own_value = value(bidders[i], targets, matching.price[own], own);
-        double best = own_value;
-        for (std::size_t j = 0; j < targets.size(); ++j)
-            best = std::max(best, value(bidders[i], targets, matching.price[j], j));
-        gap_m2 += best - own_value;
+        gap_m2 += std::max(0.0, leaves.best(bidders[i], leaves.place_of(own), i, allowed).value - own_value);
     }
     return gap_m2;
 }

@@ -1,92 +1,108 @@
 #include "planner/assignment/crossing.hpp"
 
+#include <algorithm>
+#include <functional>
+
 #include "planner/assignment/assignment.hpp"
 
 namespace aerogram::planner {
 namespace {
 
-constexpr int kRoundsOfTies = 8;
+constexpr int kRoundsOfTies = 16;
 
-double size_of(const Coordinates& c) {
-    return c.size() == 0 ? 0.0 : 2.0 * radius_of(c);
-}
+/// Changes slots of pairs until a look at every pair finds nothing to change. Only pairs of blocks are looked at again
+/// of which one has changed since.
+class Swapper {
+  public:
+    Swapper(Flights& flights, std::vector<SlotId>& slot_of, const MaySwap& may_swap)
+        : flights_(flights), slot_of_(slot_of), may_swap_(may_swap), changed_(flights.blocks(), 0) {}
 
-/// One look at every pair: those with a product below the limit change slots (only if that sorts them, when asked to).
-/// Returns whether any did; nothing when stopped.
-std::optional<bool> swap_below(Flights& flights, std::vector<SlotId>& slot, double limit_m2, bool only_sorting,
-                               const Run& run) {
-    bool any = false;
-    for (std::size_t i = 0; i < slot.size(); ++i) {
-        if (run.stopped()) return std::nullopt;
-        for (std::size_t j = i; (j = flights.first_below(i, j + 1, limit_m2)) < slot.size();) {
-            if (only_sorting && slot[i] < slot[j]) continue;
-            const Vec3 to = flights.to[i];
-            flights.to.set(i, flights.to[j]);
-            flights.to.set(j, to);
-            std::swap(slot[i], slot[j]);
-            any = true;
+    /// False when stopped.
+    bool run(const Run& run) {
+        for (int round = 1;; ++round) {
+            const std::size_t before = swaps_;
+            const bool ties = round <= kRoundsOfTies;
+            for (std::size_t a = 0; a < flights_.blocks(); ++a) {
+                if (run.stopped()) return false;
+                for (std::size_t b = a; b < flights_.blocks(); ++b)
+                    if (std::max(changed_[a], changed_[b]) >= round - 1) look(a, b, round, ties);
+            }
+            if (swaps_ == before) return true;
         }
     }
-    return any;
-}
 
-/// Until a look at every pair finds none crossing. False when stopped.
-bool swap_crossing(Flights& flights, std::vector<SlotId>& slot, const Run& run) {
-    while (true) {
-        const std::optional<bool> any = swap_below(flights, slot, -flights.tolerance_m2, false, run);
-        if (!any) return false;
-        if (!*any) return true;
+  private:
+    void look(std::size_t a, std::size_t b, int round, bool ties) {
+        const double limit_m2 = (ties ? 1.0 : -1.0) * flights_.tolerance_m2();
+        if (!flights_.may_be_below(a, b, limit_m2)) return;
+        const std::size_t before = swaps_;
+        const std::size_t end_a = std::min((a + 1) * Flights::kBlock, flights_.size());
+        const std::size_t begin_b = b * Flights::kBlock, end_b = std::min(begin_b + Flights::kBlock, flights_.size());
+        for (std::size_t p = a * Flights::kBlock; p < end_a; ++p)
+            for (std::size_t q = flights_.first_below(p, a == b ? p + 1 : begin_b, end_b, limit_m2); q < end_b;
+                 q = flights_.first_below(p, q + 1, end_b, limit_m2))
+                settle(p, q);
+        if (swaps_ == before) return;
+        changed_[a] = changed_[b] = round;
+        flights_.box_again(a);
+        flights_.box_again(b);
     }
-}
+
+    /// A pair that crosses swaps; one whose swap costs nothing does so when that sorts it.
+    void settle(std::size_t p, std::size_t q) {
+        const std::size_t i = flights_.drone_at(p), j = flights_.drone_at(q);
+        const bool crosses = flights_.product_m2(p, q) < -flights_.tolerance_m2();
+        if (!crosses && (i < j) == (slot_of_[i] < slot_of_[j])) return;
+        if (may_swap_ && !may_swap_(i, j)) return;
+        flights_.swap_targets(p, q);
+        std::swap(slot_of_[i], slot_of_[j]);
+        ++swaps_;
+    }
+
+    Flights& flights_;
+    std::vector<SlotId>& slot_of_;
+    const MaySwap& may_swap_;
+    std::vector<int> changed_;  ///< by block: the last round that swapped in it
+    std::size_t swaps_ = 0;
+};
 
 }  // namespace
 
-Flights::Flights(std::span<const Vec3> from_m, std::span<const Vec3> to_m, std::span<const SlotId> slot_of,
-                 const SeparationMetric& metric)
-    : from(centred(from_m, metric)), to(slot_of.size()) {
-    const Coordinates slots = centred(to_m, metric);
-    for (std::size_t d = 0; d < slot_of.size(); ++d) to.set(d, slots[slot_of[d].value]);
-    tolerance_m2 = kCrossingTolerance * size_of(from) * size_of(slots);
-}
-
-std::size_t Flights::first_below(std::size_t i, std::size_t begin, double limit_m2) const {
-    constexpr std::size_t kBlock = 256;
-    const Vec3 a = from[i], b = to[i];
-    const auto product = [&](std::size_t j) {
-        return (a.x - from.x[j]) * (b.x - to.x[j]) + (a.y - from.y[j]) * (b.y - to.y[j]) +
-               (a.z - from.z[j]) * (b.z - to.z[j]);
-    };
-    for (std::size_t block = begin; block < from.size(); block += kBlock) {
-        const std::size_t end = std::min(block + kBlock, from.size());
-        std::int64_t found = 0;
-        for (std::size_t j = block; j < end; ++j) found |= product(j) < limit_m2 ? 1 : 0;
-        for (std::size_t j = block; found != 0 && j < end; ++j)
-            if (product(j) < limit_m2) return j;
-    }
-    return from.size();
-}
-
 bool uncross(std::span<const Vec3> from_m, std::span<const Vec3> to_m, std::vector<SlotId>& slot_of,
-             const SeparationMetric& metric, const Run& run) {
+             const SeparationMetric& metric, const Run& run, const MaySwap& may_swap) {
     Flights flights(from_m, to_m, slot_of, metric);
-    if (!swap_crossing(flights, slot_of, run)) return false;
-    for (int round = 0; round < kRoundsOfTies; ++round) {
-        const std::optional<bool> sorted = swap_below(flights, slot_of, flights.tolerance_m2, true, run);
-        if (!sorted || !swap_crossing(flights, slot_of, run)) return false;
-        if (!*sorted) break;
-    }
-    return true;
+    return Swapper(flights, slot_of, may_swap).run(run);
 }
 
 std::optional<CrossingPair> find_crossing(std::span<const Vec3> from_m, std::span<const Vec3> to_m,
-                                          std::span<const SlotId> slot_of, const SeparationMetric& metric) {
+                                          std::span<const SlotId> slot_of, const SeparationMetric& metric,
+                                          const Run& run) {
     AEROGRAM_REQUIRE(from_m.size() == to_m.size() && from_m.size() == slot_of.size(), from_m.size(), to_m.size(),
                      slot_of.size());
     const Flights flights(from_m, to_m, slot_of, metric);
-    for (std::size_t i = 0; i < slot_of.size(); ++i)
-        if (const std::size_t j = flights.first_below(i, i + 1, -flights.tolerance_m2); j < slot_of.size())
-            return CrossingPair{DroneId(i), DroneId(j)};
-    return std::nullopt;
+    const double limit_m2 = -flights.tolerance_m2();
+    using Pair = std::pair<std::size_t, std::size_t>;
+    const Pair none{slot_of.size(), slot_of.size()};
+    std::vector<Pair> lowest(flights.blocks(), none);
+    Run own = run;  // a result that depends on when one stops is no result: the check is short, and runs to its end
+    own.stop = {};
+    parallel_for(flights.blocks(), own, {}, [&](std::size_t a) {
+        const std::size_t end_a = std::min((a + 1) * Flights::kBlock, flights.size());
+        for (std::size_t b = a; b < flights.blocks(); ++b) {
+            if (!flights.may_be_below(a, b, limit_m2)) continue;
+            const std::size_t begin_b = b * Flights::kBlock,
+                              end_b = std::min(begin_b + Flights::kBlock, flights.size());
+            for (std::size_t p = a * Flights::kBlock; p < end_a; ++p)
+                for (std::size_t q = flights.first_below(p, a == b ? p + 1 : begin_b, end_b, limit_m2); q < end_b;
+                     q = flights.first_below(p, q + 1, end_b, limit_m2)) {
+                    const std::size_t i = flights.drone_at(p), j = flights.drone_at(q);
+                    lowest[a] = std::min(lowest[a], {std::min(i, j), std::max(i, j)});
+                }
+        }
+    });
+    const Pair first = lowest.empty() ? none : *std::min_element(lowest.begin(), lowest.end());
+    if (first == none) return std::nullopt;
+    return CrossingPair{DroneId(first.first), DroneId(first.second)};
 }
 
 }  // namespace aerogram::planner

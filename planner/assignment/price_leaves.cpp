@@ -1,16 +1,20 @@
 #include "planner/assignment/price_leaves.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
-#include <utility>
+
+#include "planner/assignment/leaf_search.hpp"
 
 namespace aerogram::planner {
 namespace {
 
-constexpr std::uint32_t kLeafSize = 32;
+constexpr std::uint32_t kLeafSize = PriceLeaves::kLeafSize;
 constexpr std::uint32_t kChangesPerFit = 64;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// Above the rounding of a bound in single precision (some ten operations), relative to the sum of its terms' sizes.
+constexpr double kBoundRounding = 1e-6;
 
 /// Solves the symmetric positive definite 3x3 system s g = b.
 Vec3 solved(const std::array<double, 6>& s, const Vec3& b) {
@@ -22,153 +26,105 @@ Vec3 solved(const std::array<double, 6>& s, const Vec3& b) {
            determinant;
 }
 
-struct Box {
-    Vec3 low{}, high{};
-};
-Box box_of(const Coordinates& points, const std::uint32_t* begin, const std::uint32_t* end) {
-    Box box{points[*begin], points[*begin]};
-    for (const std::uint32_t* i = begin; i != end; ++i) {
-        box.low = glm::min(box.low, points[*i]);
-        box.high = glm::max(box.high, points[*i]);
-    }
-    return box;
-}
-
-/// Parts order[begin, end) at the median of its box's longest side; returns the middle.
-std::uint32_t halve(const Coordinates& points, std::vector<std::uint32_t>& order, std::uint32_t begin,
-                    std::uint32_t end) {
-    const Box box = box_of(points, order.data() + begin, order.data() + end);
-    const Vec3 size = box.high - box.low;
-    const std::vector<double>& along = size.x >= size.y && size.x >= size.z ? points.x
-                                       : size.y >= size.z                   ? points.y
-                                                                            : points.z;
-    const std::uint32_t middle = begin + (end - begin) / 2;
-    std::nth_element(order.begin() + begin, order.begin() + middle, order.begin() + end,
-                     [&](std::uint32_t a, std::uint32_t b) { return std::pair(along[a], a) < std::pair(along[b], b); });
-    return middle;
-}
-
-void sort_kd(const Coordinates& points, std::vector<std::uint32_t>& order, std::uint32_t begin, std::uint32_t end) {
-    if (end - begin < 2) return;
-    const std::uint32_t middle = halve(points, order, begin, end);
-    sort_kd(points, order, begin, middle);
-    sort_kd(points, order, middle, end);
-}
-
-}  // namespace
-
-std::vector<std::uint32_t> kd_order(const Coordinates& points) {
-    std::vector<std::uint32_t> order(points.size());
-    std::iota(order.begin(), order.end(), 0U);
-    sort_kd(points, order, 0, static_cast<std::uint32_t>(order.size()));
-    return order;
-}
-
-PriceLeaves::PriceLeaves(const Coordinates& targets)
-    : order_(targets.size()), at_(targets.size()), price_(targets.size()), leaf_of_(targets.size()) {
-    std::iota(order_.begin(), order_.end(), 0U);
-    split(targets, 0, static_cast<std::uint32_t>(order_.size()));
-    for (std::size_t k = 0; k < order_.size(); ++k) {
-        at_.set(k, targets[order_[k]]);
-        price_[k] = glm::dot(at_[k], at_[k]);
-    }
-    center_ = half_ = slope_ = Coordinates(leaves_.size());
-    offset_.resize(leaves_.size());
-    for (std::size_t leaf = 0; leaf < leaves_.size(); ++leaf) {
-        const Box box = box_of(targets, order_.data() + leaves_[leaf].begin, order_.data() + leaves_[leaf].end);
-        center_.set(leaf, (box.low + box.high) / 2.0);
-        // A hair wider than the box, so that rounding cannot make the bound fall short of a value.
-        half_.set(leaf, (box.high - box.low) * (0.5 + 1e-12));
-        fit(leaf);
-    }
-}
-
-void PriceLeaves::split(const Coordinates& targets, std::uint32_t begin, std::uint32_t end) {
-    if (end - begin > kLeafSize) {
-        const std::uint32_t middle = halve(targets, order_, begin, end);
-        split(targets, begin, middle);
-        split(targets, middle, end);
-        return;
-    }
-    for (std::uint32_t k = begin; k < end; ++k) leaf_of_[k] = static_cast<std::uint32_t>(leaves_.size());
-    leaves_.push_back({begin, end, 0});
-}
-
-void PriceLeaves::fit(std::size_t leaf) {
-    const auto [begin, end, changes] = leaves_[leaf];
-    const double n = end - begin;
+/// The slope of the least-squares plane through the prices of places [begin, end).
+Vec3 slope_of(const Coordinates& at, const std::vector<double>& price, std::size_t begin, std::size_t end) {
+    const auto n = static_cast<double>(end - begin);
     Vec3 mean{};
     double mean_price = 0.0;
-    for (std::uint32_t k = begin; k < end; ++k) {
-        mean += at_[k] / n;
-        mean_price += price_[k] / n;
+    for (std::size_t k = begin; k < end; ++k) {
+        mean += at[k];
+        mean_price += price[k];
     }
+    mean /= n;
+    mean_price /= n;
     std::array<double, 6> s{};
     Vec3 b{};
-    for (std::uint32_t k = begin; k < end; ++k) {
-        const Vec3 d = at_[k] - mean;
+    for (std::size_t k = begin; k < end; ++k) {
+        const Vec3 d = at[k] - mean;
         const std::array<double, 6> products{d.x * d.x, d.x * d.y, d.x * d.z, d.y * d.y, d.y * d.z, d.z * d.z};
         for (std::size_t e = 0; e < 6; ++e) s[e] += products[e];
-        b += d * (price_[k] - mean_price);
+        b += d * (price[k] - mean_price);
     }
     // Leaves of flat formations say nothing of the slope across them: any will do, so none.
     const double ridge = 1e-6 * (s[0] + s[3] + s[5]) + std::numeric_limits<double>::min();
     for (const std::size_t e : {0U, 3U, 5U}) s[e] += ridge;
-    Vec3 g = solved(s, b);
-    if (!is_finite(g)) g = Vec3{};
-    double least = std::numeric_limits<double>::infinity(), scale = 0.0;
-    for (std::uint32_t k = begin; k < end; ++k) {
-        least = std::min(least, price_[k] - glm::dot(g, at_[k]));
-        scale = std::max(scale, std::abs(price_[k]) + glm::length(g) * glm::length(at_[k]));
-    }
-    slope_.set(leaf, g);
-    offset_[leaf] = least - 1e-14 * scale;
-    leaves_[leaf].changes = 0;
+    const Vec3 slope = solved(s, b);
+    return is_finite(slope) ? slope : Vec3{};
 }
 
-void PriceLeaves::scan(std::size_t leaf, const Vec3& x, Offer& offer) const {
-    const auto [begin, end, changes] = leaves_[leaf];
-    std::array<double, kLeafSize> value{};
-    for (std::uint32_t k = begin; k < end; ++k)
-        value[k - begin] = 2.0 * (x.x * at_.x[k] + x.y * at_.y[k] + x.z * at_.z[k]) - price_[k];
-    for (std::uint32_t k = begin; k < end; ++k) {
-        const double v = value[k - begin];
-        if (v <= offer.second) continue;
-        if (v > offer.value) {
-            offer = {k, v, offer.value};
-        } else {
-            offer.second = v;
-        }
+}  // namespace
+
+PriceLeaves::PriceLeaves(const Coordinates& targets, std::span<const double> price, const Vec3& weight)
+    : order_(kd_order(targets, kLeafSize, weight)), place_(targets.size()) {
+    const std::size_t leaves = (targets.size() + kLeafSize - 1) / kLeafSize;
+    Tables& t = tables_;
+    t.at = Coordinates(leaves * kLeafSize);
+    t.price.assign(leaves * kLeafSize, kInfinity);
+    for (std::size_t k = 0; k < order_.size(); ++k) {
+        t.at.set(k, targets[order_[k]]);
+        t.price[k] = price.empty() ? glm::dot(t.at[k], t.at[k]) : price[order_[k]];
+        place_[order_[k]] = static_cast<std::uint32_t>(k);
     }
+    changes_.resize(leaves);
+    const std::size_t filled = (leaves + kSearchLanes - 1) / kSearchLanes * kSearchLanes;
+    for (auto* floats : {&t.mx, &t.my, &t.mz, &t.hx, &t.hy, &t.hz, &t.gx, &t.gy, &t.gz}) floats->assign(filled, 0.0F);
+    t.offset.assign(filled, std::numeric_limits<float>::infinity());
+    for (std::size_t leaf = 0; leaf < leaves; ++leaf) {
+        const std::size_t begin = leaf * kLeafSize;
+        const Box box = box_of(targets, order_, begin, std::min(begin + kLeafSize, order_.size()));
+        const Vec3 m = box.center(), h = box.half();
+        t.mx[leaf] = static_cast<float>(m.x);
+        t.my[leaf] = static_cast<float>(m.y);
+        t.mz[leaf] = static_cast<float>(m.z);
+        t.hx[leaf] = static_cast<float>(h.x);
+        t.hy[leaf] = static_cast<float>(h.y);
+        t.hz[leaf] = static_cast<float>(h.z);
+        reach_ = std::max(reach_, glm::length(m) + glm::length(h));
+        fit(leaf);
+    }
+}
+
+void PriceLeaves::fit(std::size_t leaf) {
+    Tables& t = tables_;
+    const std::size_t begin = leaf * kLeafSize, end = std::min(begin + kLeafSize, order_.size());
+    const Vec3 g = slope_of(t.at, t.price, begin, end);
+    double least = kInfinity;
+    for (std::size_t k = begin; k < end; ++k) least = std::min(least, t.price[k] - glm::dot(g, t.at[k]));
+    const Vec3 m{t.mx[leaf], t.my[leaf], t.mz[leaf]};
+    const double offset = glm::dot(g, m) + least;
+    t.gx[leaf] = static_cast<float>(g.x);
+    t.gy[leaf] = static_cast<float>(g.y);
+    t.gz[leaf] = static_cast<float>(g.z);
+    t.offset[leaf] = static_cast<float>(offset);
+    scale_ = std::max(scale_, std::abs(offset) + glm::length(g) * reach_);
+    changes_[leaf] = 0;
+}
+
+double PriceLeaves::rounding(const Vec3& x) const {
+    return kBoundRounding * (4.0 * glm::length(x) * reach_ + scale_);
 }
 
 PriceLeaves::Offer PriceLeaves::best(const Vec3& x, std::uint32_t start) const {
-    constexpr double kWorst = -std::numeric_limits<double>::infinity();
-    constexpr std::size_t kBlock = 64;
-    Offer offer{start, kWorst, kWorst};
-    const std::size_t first = leaf_of_[start];
-    scan(first, x, offer);
-    std::array<double, kBlock> bound{};
-    for (std::size_t from = 0; from < leaves_.size(); from += kBlock) {
-        const std::size_t count = std::min(kBlock, leaves_.size() - from);
-        for (std::size_t k = 0; k < count; ++k) {
-            const std::size_t leaf = from + k;
-            const double dx = 2.0 * x.x - slope_.x[leaf], dy = 2.0 * x.y - slope_.y[leaf],
-                         dz = 2.0 * x.z - slope_.z[leaf];
-            bound[k] = dx * center_.x[leaf] + std::abs(dx) * half_.x[leaf] + dy * center_.y[leaf] +
-                       std::abs(dy) * half_.y[leaf] + dz * center_.z[leaf] + std::abs(dz) * half_.z[leaf] -
-                       offset_[leaf];
-        }
-        for (std::size_t k = 0; k < count; ++k)
-            if (bound[k] > offer.second && from + k != first) scan(from + k, x, offer);
-    }
+    Offer offer{start, -kInfinity, -kInfinity};
+    search(tables_, x, rounding(x), start / kLeafSize, offer);
+    return offer;
+}
+
+PriceLeaves::Offer PriceLeaves::best(const Vec3& x, std::uint32_t start, std::uint32_t bidder,
+                                     const Allowed& allowed) const {
+    if (allowed.everything()) return best(x, start);
+    std::vector<std::uint32_t> forbidden;
+    for (const std::uint32_t target : allowed.forbidden_to(bidder)) forbidden.push_back(place_[target]);
+    std::sort(forbidden.begin(), forbidden.end());
+    Offer offer{start, -kInfinity, -kInfinity};
+    search_allowed(tables_, x, rounding(x), start / kLeafSize, {forbidden, allowed.reach2_m2, allowed.downwash}, offer);
     return offer;
 }
 
 void PriceLeaves::raise(std::uint32_t place, double price) {
-    price_[place] = price;
-    const std::uint32_t leaf = leaf_of_[place];
-    if (++leaves_[leaf].changes >= kChangesPerFit) fit(leaf);
+    tables_.price[place] = price;
+    const std::uint32_t leaf = place / kLeafSize;
+    if (++changes_[leaf] >= kChangesPerFit) fit(leaf);
 }
 
 }  // namespace aerogram::planner

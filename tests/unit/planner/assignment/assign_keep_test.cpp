@@ -12,11 +12,11 @@ using ::testing::ElementsAre;
 const Points kFrom{{0, 0, 0}, {2, 0, 0}, {4, 0, 0}, {6, 0, 0}, {8, 0, 0}};
 
 std::vector<std::uint32_t> kept(const std::map<DroneId, SlotId>& pins) {
-    return numbers(assign_keep(kFrom, kFrom, pins, kEuclidean).slot_of);
+    return numbers(assign_keep(kFrom, kFrom, pins, kEuclidean).value().slot_of);
 }
 
 TEST(AssignKeep, EveryDroneFliesToItsOwnSlot) {
-    const Assignment found = assign_keep(kFrom, kFrom, {}, kEuclidean);
+    const Assignment found = assign_keep(kFrom, kFrom, {}, kEuclidean).value();
     EXPECT_THAT(numbers(found.slot_of), ElementsAre(0, 1, 2, 3, 4));
     EXPECT_EQ(found.cost_m2, 0.0);
     EXPECT_EQ(found.duality_gap, 0.0);
@@ -32,7 +32,7 @@ TEST(AssignKeep, DisplacedDronesTakeVacatedSlotsInOrder) {
 
 TEST(AssignKeep, CrossingsAreReportedWithTheLowestPair) {
     const Points back{{0, 0, 0}, {8, 0, 0}, {4, 0, 0}, {6, 0, 0}, {2, 0, 0}};
-    const Assignment found = assign_keep(kFrom, back, {}, kEuclidean);
+    const Assignment found = assign_keep(kFrom, back, {}, kEuclidean).value();
     EXPECT_FALSE(found.pairwise);
     ASSERT_TRUE(found.crossing);
     EXPECT_EQ(found.crossing->first, DroneId(1));
@@ -43,7 +43,7 @@ TEST(AssignKeep, CrossingsAreReportedWithTheLowestPair) {
 TEST(AssignKeep, CostIsInTheSeparationMetric) {
     Points up = kFrom;
     for (Vec3& p : up) p.z += 10.0;
-    EXPECT_DOUBLE_EQ(assign_keep(kFrom, up, {}, SeparationMetric{2.0}).cost_m2, 5.0 * 25.0);
+    EXPECT_DOUBLE_EQ(assign_keep(kFrom, up, {}, SeparationMetric{2.0}).value().cost_m2, 5.0 * 25.0);
 }
 
 }  // namespace

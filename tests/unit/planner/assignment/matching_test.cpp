@@ -71,7 +71,7 @@ TEST(Matching, AuctionIsWithinItsEpsilonAndAugmentClosesTheRest) {
     for (const std::size_t n : {2U, 33U, 64U, 200U}) {
         const Coordinates x = centred(pads(n), kEuclidean), y = centred(letters(n), kEuclidean);
         const double epsilon = 1e-3 * radius_of(x) * radius_of(y);
-        const Matching coarse = auction(x, y, epsilon, aerogram::Run{}).value();
+        const Matching coarse = auction(x, y, {epsilon}, aerogram::Run{}).value();
         const double gap = duality_gap_m2(x, y, coarse);
         EXPECT_GE(gap, 0.0);
         EXPECT_LE(gap, static_cast<double>(n) * epsilon * (1.0 + 1e-9));
