@@ -62,13 +62,13 @@ void ask_of_altitude(const Altitude& altitude, const Rules& rules, const Claims&
     all.push_back({"altitude_max_m", position, c.altitude_max_m, -1.0, tolerance,
                    [altitude](const Vec3& p) { return -altitude.of(p); },
                    [altitude, most](const Bezier& curve) {
-                       const double rough = altitude.rough(curve).high;
+                       const double rough = altitude.rough(curve.controls()).high;
                        return -(rough <= most ? rough : altitude.range(curve).high);
                    }});
     all.push_back({"altitude_min_m", position, c.altitude_min_m, 1.0, tolerance,
                    [altitude](const Vec3& p) { return altitude.of(p); },
                    [altitude, least](const Bezier& curve) {
-                       const double rough = altitude.rough(curve).low;
+                       const double rough = altitude.rough(curve.controls()).low;
                        return rough >= least ? rough : altitude.range(curve).low;
                    }});
 }

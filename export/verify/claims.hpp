@@ -18,6 +18,10 @@ struct Claims {
     double acceleration_mps2 = 0.0, jerk_mps3 = 0.0;
     double altitude_min_m = 0.0, altitude_max_m = 0.0;
     std::optional<double> geofence_margin_m, audience_margin_m, obstacle_margin_m;
+    struct Plane {
+        double airspeed_min_mps = 0.0, airspeed_max_mps = 0.0, turn_rate_dps = 0.0;
+    };
+    std::optional<Plane> plane;  ///< of planes: nobody is slower, faster, or turns faster
 };
 
 /// What a drone really has at an instant, and no claim allows.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 namespace aerogram::exporter {
 namespace {
@@ -10,29 +11,37 @@ namespace {
 constexpr double kForever = std::numeric_limits<double>::infinity();
 constexpr int kHalvings = 12;
 
-bool stands(const Bezier& curve, const Vec3& place) {
-    return std::ranges::all_of(curve.controls(), [&](const Vec3& p) {
-        return std::abs(p.z - place.z) <= kOnGround_m && std::hypot(p.x - place.x, p.y - place.y) <= kOnGround_m;
-    });
+/// Around a place: what lies in it wherever its control points do, because it is convex.
+struct Zone {
+    Vec3 place_m{};
+    double beside_m = 0.0, above_m = 0.0;
+
+    [[nodiscard]] bool holds(const Vec3& p) const {
+        const double x = p.x - place_m.x, y = p.y - place_m.y, z = p.z - place_m.z;
+        return z >= -kOnGround_m && z <= above_m && x * x + y * y <= beside_m * beside_m;
+    }
+    [[nodiscard]] bool holds(std::span<const Vec3> points) const {
+        return std::ranges::all_of(points, [this](const Vec3& p) { return holds(p); });
+    }
+};
+
+/// The largest found u up to which the curve is inside; its beginning is.
+double inside_until(const Bezier& curve, const Zone& zone) {
+    double inside = 0.0, left = 1.0;
+    for (int i = 0; i < kHalvings; ++i) {
+        const double u = 0.5 * (inside + left);
+        (zone.holds(split(curve, u).first.controls()) ? inside : left) = u;
+    }
+    return inside;
 }
 
-/// The largest found u up to which the curve stands; its beginning does.
-double standing_until(const Bezier& curve, const Vec3& place) {
-    double stood = 0.0, left = 1.0;
+double inside_from(const Bezier& curve, const Zone& zone) {
+    double inside_from = 1.0, outside_at = 0.0;
     for (int i = 0; i < kHalvings; ++i) {
-        const double u = 0.5 * (stood + left);
-        (stands(split(curve, u).first, place) ? stood : left) = u;
+        const double u = 0.5 * (inside_from + outside_at);
+        (zone.holds(split(curve, u).second.controls()) ? inside_from : outside_at) = u;
     }
-    return stood;
-}
-
-double standing_from(const Bezier& curve, const Vec3& place) {
-    double stands_from = 1.0, flies_at = 0.0;
-    for (int i = 0; i < kHalvings; ++i) {
-        const double u = 0.5 * (stands_from + flies_at);
-        (stands(split(curve, u).second, place) ? stands_from : flies_at) = u;
-    }
-    return stands_from;
+    return inside_from;
 }
 
 void add(std::vector<Interval>& intervals, const Interval& next) {
@@ -44,29 +53,43 @@ void add(std::vector<Interval>& intervals, const Interval& next) {
     }
 }
 
-/// When the drone stands at one place.
-std::vector<Interval> standing_at(const RecordedDrone& drone, const Vec3& place) {
+/// When the drone is in one zone.
+std::vector<Interval> inside(const RecordedDrone& drone, const Zone& zone) {
     std::vector<Interval> found;
-    const Vec3 first = first_position(drone), last = last_position(drone);
-    if (stands({{first}, 0}, place)) add(found, {-kForever, drone.pieces.front().start_s});
+    if (zone.holds(first_position(drone))) add(found, {-kForever, drone.pieces.front().start_s});
     for (std::size_t k = 0; k < drone.pieces.size(); ++k) {
         const Piece& piece = drone.pieces[k];
+        const std::span<const Vec3> points(&drone.controls_m[piece.first_control], std::size_t{piece.degree} + 1);
+        const bool begins = zone.holds(points.front()), ends = zone.holds(points.back());
+        if (!begins && !ends) continue;
         const double begin_s = piece.start_s;
         const double finish_s = k + 1 < drone.pieces.size() ? drone.pieces[k + 1].start_s : begin_s + piece.duration_s;
-        const Bezier curve = curve_of(drone, piece);
-        if (stands(curve, place)) {
+        if (zone.holds(points)) {
             add(found, {begin_s, finish_s});
             continue;
         }
-        if (stands({{curve.front()}, 0}, place)) {
-            add(found, {begin_s, std::min(finish_s, begin_s + standing_until(curve, place) * piece.duration_s)});
-        }
-        if (stands({{curve.back()}, 0}, place)) {
-            add(found, {begin_s + standing_from(curve, place) * piece.duration_s, finish_s});
-        }
+        const Bezier curve = curve_of(drone, piece);
+        if (begins) add(found, {begin_s, std::min(finish_s, begin_s + inside_until(curve, zone) * piece.duration_s)});
+        if (ends) add(found, {begin_s + inside_from(curve, zone) * piece.duration_s, finish_s});
     }
-    if (stands({{last}, 0}, place)) add(found, {end_s(drone), kForever});
+    if (zone.holds(last_position(drone))) add(found, {end_s(drone), kForever});
     return found;
+}
+
+/// At home or at the landing place.
+std::vector<Interval> inside_either(const RecordedDrone& drone, double beside_m, double above_m) {
+    std::vector<Interval> all;
+    const std::optional<Vec3> home = home_place(drone), landing = landing_place(drone);
+    if (home) all = inside(drone, {*home, beside_m, above_m});
+    if (!landing || landing == home) return all;
+    const std::vector<Interval> there = inside(drone, {*landing, beside_m, above_m});
+    all.insert(all.end(), there.begin(), there.end());
+    std::ranges::sort(all, [](const Interval& a, const Interval& b) {
+        return a.begin_s != b.begin_s ? a.begin_s < b.begin_s : a.end_s < b.end_s;
+    });
+    std::vector<Interval> apart;
+    for (const Interval& interval : all) add(apart, interval);
+    return apart;
 }
 
 /// The ground under a position on it.
@@ -86,18 +109,28 @@ std::optional<Vec3> landing_place(const RecordedDrone& drone) {
 }
 
 std::vector<Interval> grounded_intervals(const RecordedDrone& drone) {
-    std::vector<Interval> all;
-    for (const std::optional<Vec3>& place : {home_place(drone), landing_place(drone)}) {
-        if (!place) continue;
-        const std::vector<Interval> there = standing_at(drone, *place);
-        all.insert(all.end(), there.begin(), there.end());
+    return inside_either(drone, kOnGround_m, kOnGround_m);
+}
+
+std::vector<Interval> upright_intervals(const RecordedDrone& drone, double beside_m) {
+    return inside_either(drone, beside_m, kForever);
+}
+
+std::vector<Stay> stays(const RecordedDrone& drone, double beside_m) {
+    const std::vector<Interval> grounded = grounded_intervals(drone);
+    std::vector<Stay> all;
+    for (const Interval& g : grounded) all.push_back({g.begin_s, g.end_s, Stance::on_pad});
+    for (const Interval& upright : upright_intervals(drone, beside_m)) {
+        double from_s = upright.begin_s;
+        for (const Interval& g : grounded) {
+            if (g.end_s <= from_s || g.begin_s >= upright.end_s) continue;
+            if (g.begin_s > from_s) all.push_back({from_s, g.begin_s, Stance::above_pad});
+            from_s = g.end_s;
+        }
+        if (from_s < upright.end_s) all.push_back({from_s, upright.end_s, Stance::above_pad});
     }
-    std::ranges::sort(all, [](const Interval& a, const Interval& b) {
-        return a.begin_s != b.begin_s ? a.begin_s < b.begin_s : a.end_s < b.end_s;
-    });
-    std::vector<Interval> apart;
-    for (const Interval& interval : all) add(apart, interval);
-    return apart;
+    std::ranges::sort(all, {}, &Stay::begin_s);
+    return all;
 }
 
 }  // namespace aerogram::exporter

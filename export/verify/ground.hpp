@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -15,6 +16,9 @@ struct Interval {
 /// How far from its home or landing place a drone may be and still stand on the ground: vertically, and horizontally,
 /// metres.
 inline constexpr double kOnGround_m = 0.05;
+/// How far beside its home or landing place a drone may be, horizontally, and still be straight above it; what the
+/// file's rounding and fit may move a point on the ground plane is added.
+inline constexpr double kStraightAbove_m = 0.01;
 
 /// Where a drone may stand. What is not stated is the point of z = 0, the ground of a show without pads, under the
 /// first (the last) position, provided that is within kOnGround_m of it; absent otherwise: who hovers there is not
@@ -28,5 +32,26 @@ inline constexpr double kOnGround_m = 0.05;
 /// flying.
 /// @returns intervals in time order, apart from each other.
 [[nodiscard]] std::vector<Interval> grounded_intervals(const RecordedDrone& drone);
+
+/// When a drone certainly is straight above its home place, or above its landing place: its whole curve is within
+/// `beside_m` of it horizontally and not lower than kOnGround_m below it. As conservative as grounded_intervals.
+[[nodiscard]] std::vector<Interval> upright_intervals(const RecordedDrone& drone, double beside_m);
+
+/// What counts for separation: a pair is excused while one of the two stands on its own pad and the other stands on, or
+/// is straight above, its own. Where pads are as far apart as drones must be, such a pair keeps its distance anyway,
+/// but for kStraightAbove_m; on tighter pads it is how drones start and land in layers. Whoever comes sideways is
+/// above no pad of its own and is not excused.
+enum class Stance : std::uint8_t { flying, above_pad, on_pad };
+[[nodiscard]] constexpr bool excused(Stance a, Stance b) {
+    return (a == Stance::on_pad && b != Stance::flying) || (b == Stance::on_pad && a != Stance::flying);
+}
+
+/// An interval in which a drone is not flying freely.
+struct Stay {
+    double begin_s = 0.0, end_s = 0.0;
+    Stance stance = Stance::flying;
+};
+/// Grounded intervals, and upright ones where they are not grounded; in time order, apart or touching.
+[[nodiscard]] std::vector<Stay> stays(const RecordedDrone& drone, double beside_m);
 
 }  // namespace aerogram::exporter

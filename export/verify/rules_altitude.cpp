@@ -12,12 +12,20 @@ class LowStays {
     LowStays(const Altitude& altitude, double threshold_m, Worst& negative)
         : altitude_(altitude), threshold_m_(threshold_m), negative_(negative) {}
 
-    void visit(const Timed& on) {
-        if (altitude_.rough(on.curve).low >= threshold_m_) {
-            anchor_.reset();
-            return;
+    void follow(const RecordedDrone& drone) {
+        for (const Piece& piece : drone.pieces) {
+            if (altitude_.rough(controls_of(drone, piece)).low >= threshold_m_) {
+                anchor_.reset();
+            } else {
+                visit(timed(drone, piece));
+            }
         }
-        const AltitudeRange range = altitude_.range(on.curve);
+    }
+
+  private:
+    void visit(const Timed& on) {
+        AltitudeRange range = altitude_.rough(on.curve.controls());
+        if (range.low < threshold_m_ && range.high >= threshold_m_) range = altitude_.range(on.curve);
         if (range.low >= threshold_m_) {
             anchor_.reset();
         } else if (range.high < threshold_m_ || on.end_s - on.begin_s < kShortest_s || upright(on.curve)) {
@@ -31,7 +39,6 @@ class LowStays {
         }
     }
 
-  private:
     static bool upright(const Bezier& curve) {
         return std::ranges::all_of(curve.controls(),
                                    [&](const Vec3& p) { return p.x == curve.front().x && p.y == curve.front().y; });
@@ -56,17 +63,19 @@ std::vector<Finding> altitude_findings(const RecordedShow& show, const Rules& ru
             const Altitude altitude(rules.frame, home_of(drone));
             const auto of = [&](const Vec3& p) { return -altitude.of(p); };
             const auto bound = [&](const Bezier& curve) {
-                const double rough = -altitude.rough(curve).high;
+                const double rough = -altitude.rough(curve.controls()).high;
                 return rough >= worst.bound ? rough : -altitude.range(curve).high;
             };
-            for_each_piece(drone, [&](const Timed& on) { minimise(on, Tolerance{}, of, bound, worst); });
+            for (const Piece& piece : drone.pieces) {
+                if (-altitude.rough(controls_of(drone, piece)).high < worst.bound)
+                    minimise(timed(drone, piece), Tolerance{}, of, bound, worst);
+            }
         });
     const double threshold_m = rules.limits.min_navigation_altitude_m - rules.axis_m() - kAltitude_m - kNumeric;
     const FleetWorst low =
         worst_of_fleet(show.drones, run, "verifying low flight", [&](const RecordedDrone& drone, Worst& worst) {
             const Altitude altitude(rules.frame, home_of(drone));
-            LowStays stays(altitude, threshold_m, worst);
-            for_each_piece(drone, [&](const Timed& on) { stays.visit(on); });
+            LowStays(altitude, threshold_m, worst).follow(drone);
         });
     std::vector<Finding> found = at_most("altitude_max", rules.limits.ceiling_m, rules.axis_m() + kAltitude_m, highest);
     for (Finding& finding : at_most("altitude_min_navigation", 0.0, 2.0 * rules.plane_m(), low))

@@ -1,9 +1,10 @@
-// Smallest separation of a recorded show: time is cut into slabs until drones move little in each, close pairs of boxes
-// come from a grid, and each pair's difference polynomials are bounded by their control points' hull, halved while
-// inconclusive.
+// Smallest separation of a recorded show: time is cut into slabs in which drones move little, close pairs of boxes come
+// from a grid, and each pair's difference polynomials are bounded by their control points' hull, halved while
+// inconclusive. Parts of a few slabs are searched apart from each other, whatever the threads.
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "export/verify/close_pairs.hpp"
 #include "export/verify/judge.hpp"
@@ -12,10 +13,8 @@
 namespace aerogram::exporter {
 namespace {
 
-constexpr double kLongestSlab_s = 16.0;
-constexpr double kMostParts = 1e5;
-constexpr double kShortestSlab_s = 0.02;
-constexpr double kStretchesADrone = 6.0;
+constexpr double kTravelShare = 0.4;  ///< of the distance looked at: what drones fly in a slab
+constexpr std::size_t kSlabsAPart = 8;
 constexpr double kRoundoff_m = 1e-9;  ///< of all arithmetic here, for coordinates within 1e5 m
 constexpr int kHalvings = 60;
 
@@ -84,7 +83,7 @@ void bound_pair(const Slab& slab, Pair pair, Best& best) {
     for (std::size_t i = 0, j = 0; i < first.size() && j < second.size();) {
         const Stretch &a = first[i], &b = second[j];
         const double begin_s = std::max(a.begin_s, b.begin_s), end_s = std::min(a.end_s, b.end_s);
-        if (!(a.on_ground && b.on_ground) && end_s > begin_s) {
+        if (!excused(a.stance, b.stance) && end_s > begin_s) {
             const std::size_t degree = std::max(a.degree, b.degree);
             Bezier difference = elevated(stretch_curve(slab, a, begin_s, end_s), degree);
             const Bezier other = elevated(stretch_curve(slab, b, begin_s, end_s), degree);
@@ -96,42 +95,54 @@ void bound_pair(const Slab& slab, Pair pair, Best& best) {
     }
 }
 
-/// The workspace of one thread's part of the show, and what it found.
+/// True when the difference's control points all lie beyond a plane at that distance, seen along the mean of its ends:
+/// what most pairs need.
+bool clearly_beyond(std::span<const Vec3> a, std::span<const Vec3> b, double distance_m) {
+    const Vec3 along = (a.front() - b.front()) + (a.back() - b.back());
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t c = 0; c < a.size(); ++c) least = std::min(least, glm::dot(along, a[c] - b[c]));
+    return least > 0.0 && least * least >= distance_m * distance_m * glm::dot(along, along);
+}
+
+/// The workspace of one part of the show, and what was found there.
 struct Search {
     const Timelines& shows;
     const Run& run;
-    double longest_extent_m;  ///< the boxes' mean above which a slab is halved
     Best best;
-    std::vector<Box> boxes;
-    Slab slab;
+    std::vector<Slab> slabs;
     CloseBoxes close;
 
     /// False once two drones meet as nearly as is resolved: then the bound is 0 and nothing worse can be found.
     bool goes_on() {
-        if (run.stopped()) return false;
         if (best.attained_m > best.resolved_m) return true;
         best.lower_m = 0.0;
         return false;
     }
 
-    void search(double begin_s, double end_s) {
-        if (!goes_on()) return;
-        const SlabSize size = measure(shows, begin_s, end_s, boxes);
-        const bool much = size.mean_extent_m > longest_extent_m ||
-                          static_cast<double>(size.stretches) > kStretchesADrone * static_cast<double>(boxes.size());
-        if (much && end_s - begin_s > kShortestSlab_s) {
-            const double middle_s = 0.5 * (begin_s + end_s);
-            search(begin_s, middle_s);
-            search(middle_s, end_s);
-            return;
+    bool look_at(const Slab& slab, Pair pair) {
+        if (excused(slab.stance[pair.first], slab.stance[pair.second])) return true;
+        const auto a = slab.of(pair.first), b = slab.of(pair.second);
+        if (a.size() == 1 && b.size() == 1 && a[0].degree == b[0].degree) {
+            const std::span<const Vec3> controls(slab.controls_m);
+            const std::size_t count = std::size_t{a[0].degree} + 1;
+            if (clearly_beyond(controls.subspan(a[0].first_control, count), controls.subspan(b[0].first_control, count),
+                               best.lower_m))
+                return true;
+        } else if (slab.boxes[pair.first].gap(slab.boxes[pair.second]) >= best.lower_m) {
+            return true;
         }
-        cut(shows, begin_s, end_s, slab);
-        close.find(slab.boxes, best.lower_m, size.mean_extent_m, [&](std::uint32_t i, std::uint32_t j) {
-            if (slab.grounded[i] != 0 && slab.grounded[j] != 0) return goes_on();
-            if (slab.boxes[i].gap(slab.boxes[j]) >= best.lower_m) return goes_on();
-            bound_pair(slab, {i, j}, best);
-            return goes_on();
-        });
+        bound_pair(slab, pair, best);
+        return goes_on();
+    }
+
+    void search(std::span<const double> times_s) {
+        cut(shows, times_s, slabs);
+        for (const Slab& slab : slabs) {
+            if (run.stopped() || !goes_on()) return;
+            close.find(slab.boxes, best.lower_m, [&](std::uint32_t i, std::uint32_t j) {
+                return look_at(slab, {i, j});
+            });
+        }
     }
 };
 
@@ -145,19 +156,16 @@ Result<VerifiedSeparation> verify_separation(const RecordedShow& show, double do
     }
     VerifiedSeparation result{beyond_m, std::numeric_limits<double>::infinity(), 0, 0, 0.0};
     if (show.drones.size() < 2 || !show.timed) return result;
-    const Timelines shows = timelines(show.drones, downwash);
+    const Timelines shows = timelines(show, downwash, run);
     const double begin_s = std::max(shows.begin_s, search.begin_s), finish_s = std::min(shows.end_s, search.end_s);
     if (!(finish_s > begin_s)) return result;
-    const double span_s = finish_s - begin_s;
-    const auto parts = static_cast<std::size_t>(std::ceil(std::min(span_s / kLongestSlab_s, kMostParts)));
+    const std::vector<double> times_s = slab_times(shows, begin_s, finish_s, kTravelShare * beyond_m);
+    const std::size_t slabs = times_s.size() - 1, parts = (slabs + kSlabsAPart - 1) / kSlabsAPart;
     std::vector<Best> found(parts);
     parallel_for(parts, run, "verifying separation", [&](std::size_t part) {
-        const auto at = [&](std::size_t k) {
-            return begin_s + span_s * (static_cast<double>(k) / static_cast<double>(parts));
-        };
-        Search part_search{shows, run, 0.5 * beyond_m, {.lower_m = beyond_m, .resolved_m = search.resolved_m}, {},
-                           {},    {}};
-        part_search.search(at(part), part + 1 == parts ? finish_s : at(part + 1));
+        const std::size_t first = part * kSlabsAPart, last = std::min(slabs, first + kSlabsAPart);
+        Search part_search{shows, run, {.lower_m = beyond_m, .resolved_m = search.resolved_m}, {}, {}};
+        part_search.search(std::span(times_s).subspan(first, last - first + 1));
         found[part] = part_search.best;
     });
     if (run.stopped()) return stopped_error();

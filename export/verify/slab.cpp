@@ -8,50 +8,69 @@ namespace aerogram::exporter {
 namespace {
 
 constexpr double kForever = std::numeric_limits<double>::infinity();
+constexpr std::size_t kDronesATask = 64;
 
-/// Walks one drone through [begin_s, end_s] and hands over each polynomial on its own time.
-template <class Visit>
-void walk(const RecordedDrone& drone, std::span<const Interval> grounded, double begin_s, double end_s, Visit visit) {
-    const double starts_s = drone.pieces.front().start_s, ends_s = exporter::end_s(drone);
-    std::size_t k = piece_at(drone, begin_s);
-    auto ground = std::ranges::partition_point(grounded, [&](const Interval& g) { return g.end_s <= begin_s; });
-    for (double t = begin_s; t < end_s;) {
-        const Piece& piece = drone.pieces[k];
-        double until = std::min(end_s, k + 1 < drone.pieces.size() ? drone.pieces[k + 1].start_s : kForever);
-        if (t < starts_s) {
-            until = std::min(until, starts_s);
-        } else if (t < ends_s) {
-            until = std::min(until, ends_s);
+/// One drone on its way through time: hands over each polynomial on its own stretch, in order.
+class Walker {
+  public:
+    Walker(const RecordedDrone& drone, std::span<const Stay> stays, double begin_s)
+        : drone_(drone),
+          starts_s_(drone.pieces.front().start_s),
+          ends_s_(exporter::end_s(drone)),
+          piece_(piece_at(drone, begin_s)),
+          stay_(std::ranges::partition_point(stays, [&](const Stay& s) { return s.end_s <= begin_s; })),
+          no_stay_(stays.end()) {}
+
+    /// @param begin_s  where the call before ended. @param visit  (from_s, to_s, controls, stance)
+    template <class Visit>
+    void walk(double begin_s, double end_s, const Visit& visit) {
+        for (double t = begin_s; t < end_s;) {
+            double until = std::min(end_s, next_piece_s());
+            if (t < starts_s_) {
+                until = std::min(until, starts_s_);
+            } else if (t < ends_s_) {
+                until = std::min(until, ends_s_);
+            }
+            while (stay_ != no_stay_ && stay_->end_s <= t) ++stay_;
+            const bool staying = stay_ != no_stay_ && stay_->begin_s <= t;
+            if (stay_ != no_stay_) until = std::min(until, staying ? stay_->end_s : stay_->begin_s);
+            hand_over(t, until, staying ? stay_->stance : Stance::flying, visit);
+            t = until;
+            while (next_piece_s() <= t) ++piece_;
         }
-        while (ground != grounded.end() && ground->end_s <= t) ++ground;
-        const bool on_ground = ground != grounded.end() && ground->begin_s <= t;
-        if (ground != grounded.end()) until = std::min(until, on_ground ? ground->end_s : ground->begin_s);
-        if (t < starts_s || t >= ends_s) {
-            visit(t, until, Bezier{{t < starts_s ? first_position(drone) : last_position(drone)}, 0}, on_ground);
+    }
+
+  private:
+    [[nodiscard]] double next_piece_s() const {
+        return piece_ + 1 < drone_.pieces.size() ? drone_.pieces[piece_ + 1].start_s : kForever;
+    }
+    template <class Visit>
+    void hand_over(double t, double until, Stance stance, const Visit& visit) const {
+        const auto point = [&](const Vec3& p) { visit(t, until, std::span(&p, 1), stance); };
+        if (t < starts_s_) return point(first_position(drone_));
+        if (t >= ends_s_) return point(last_position(drone_));
+        const Piece& piece = drone_.pieces[piece_];
+        const double from = (t - piece.start_s) / piece.duration_s, to = (until - piece.start_s) / piece.duration_s;
+        if (piece.degree == 0 || (from == 0.0 && std::abs(to - 1.0) < 1e-12)) {
+            visit(t, until, std::span(&drone_.controls_m[piece.first_control], std::size_t{piece.degree} + 1), stance);
         } else {
-            const double from = (t - piece.start_s) / piece.duration_s;
-            const double to = (until - piece.start_s) / piece.duration_s;
-            const bool whole = from == 0.0 && std::abs(to - 1.0) < 1e-12;
-            visit(t, until, whole ? curve_of(drone, piece) : restricted(curve_of(drone, piece), from, to), on_ground);
+            const Bezier part = restricted(curve_of(drone_, piece), from, to);
+            visit(t, until, part.controls(), stance);
         }
-        t = until;
-        while (k + 1 < drone.pieces.size() && drone.pieces[k + 1].start_s <= t) ++k;
     }
-}
 
-void scale(Bezier& curve, double downwash) {
-    for (std::size_t i = 0; i <= curve.degree; ++i) curve.control[i].z /= downwash;
-}
+    const RecordedDrone& drone_;
+    double starts_s_, ends_s_;
+    std::size_t piece_;
+    std::span<const Stay>::iterator stay_, no_stay_;
+};
 
-void include(Box& box, const Bezier& curve) {
-    for (const Vec3& p : curve.controls()) {
-        box.low_m = glm::min(box.low_m, p);
-        box.high_m = glm::max(box.high_m, p);
-    }
-}
-
-Box nothing() {
-    return {Vec3(kForever), Vec3(-kForever)};
+void clear(Slab& slab) {
+    slab.boxes.clear();
+    slab.first_stretch.clear();
+    slab.stretches.clear();
+    slab.controls_m.clear();
+    slab.stance.clear();
 }
 
 }  // namespace
@@ -61,55 +80,50 @@ double Box::gap(const Box& other) const {
     return glm::length(apart);
 }
 
-Timelines timelines(std::span<const RecordedDrone> drones, double downwash) {
-    AEROGRAM_REQUIRE(!drones.empty());
-    Timelines all{drones, {}, downwash, kForever, -kForever};
-    all.grounded.reserve(drones.size());
-    for (const RecordedDrone& drone : drones) {
-        all.grounded.push_back(grounded_intervals(drone));
+Timelines timelines(const RecordedShow& show, double downwash, const Run& run) {
+    AEROGRAM_REQUIRE(!show.drones.empty());
+    const std::size_t n = show.drones.size();
+    const double beside_m = kStraightAbove_m + std::sqrt(2.0) * show.rounding.position_m + show.rounding.fit_m;
+    Timelines all{show.drones, std::vector<std::vector<Stay>>(n), downwash, kForever, -kForever};
+    parallel_for((n + kDronesATask - 1) / kDronesATask, Run{run.stop, {}, run.threads}, "", [&](std::size_t task) {
+        for (std::size_t d = task * kDronesATask; d < std::min(n, (task + 1) * kDronesATask); ++d)
+            all.stays[d] = stays(show.drones[d], beside_m);
+    });
+    for (const RecordedDrone& drone : show.drones) {
         all.begin_s = std::min(all.begin_s, drone.pieces.front().start_s);
         all.end_s = std::max(all.end_s, exporter::end_s(drone));
     }
     return all;
 }
 
-SlabSize measure(const Timelines& shows, double begin_s, double end_s, std::vector<Box>& boxes) {
-    SlabSize size;
-    boxes.assign(shows.drones.size(), nothing());
+void cut(const Timelines& shows, std::span<const double> times_s, std::vector<Slab>& slabs) {
+    const std::size_t count = times_s.size() - 1;
+    slabs.resize(count);
+    for (Slab& slab : slabs) clear(slab);
     for (std::size_t d = 0; d < shows.drones.size(); ++d) {
-        walk(shows.drones[d], shows.grounded[d], begin_s, end_s, [&](double, double, Bezier curve, bool) {
-            scale(curve, shows.downwash);
-            include(boxes[d], curve);
-            ++size.stretches;
-        });
-        const Vec3 extent = boxes[d].high_m - boxes[d].low_m;
-        size.mean_extent_m += std::max({extent.x, extent.y, extent.z});
+        Walker walker(shows.drones[d], shows.stays[d], times_s.front());
+        for (std::size_t k = 0; k < count; ++k) {
+            Slab& slab = slabs[k];
+            Box box{Vec3(kForever), Vec3(-kForever)};
+            Stance least = Stance::on_pad;
+            slab.first_stretch.push_back(static_cast<std::uint32_t>(slab.stretches.size()));
+            walker.walk(times_s[k], times_s[k + 1],
+                        [&](double from_s, double to_s, std::span<const Vec3> controls, Stance stance) {
+                            slab.stretches.push_back({from_s, to_s, static_cast<std::uint32_t>(slab.controls_m.size()),
+                                                      static_cast<std::uint8_t>(controls.size() - 1), stance});
+                            for (Vec3 p : controls) {
+                                p.z /= shows.downwash;
+                                box.low_m = glm::min(box.low_m, p);
+                                box.high_m = glm::max(box.high_m, p);
+                                slab.controls_m.push_back(p);
+                            }
+                            least = std::min(least, stance);
+                        });
+            slab.boxes.push_back(box);
+            slab.stance.push_back(least);
+        }
     }
-    size.mean_extent_m /= static_cast<double>(shows.drones.size());
-    return size;
-}
-
-void cut(const Timelines& shows, double begin_s, double end_s, Slab& slab) {
-    slab.begin_s = begin_s;
-    slab.end_s = end_s;
-    slab.boxes.assign(shows.drones.size(), nothing());
-    slab.grounded.assign(shows.drones.size(), 1);
-    slab.first_stretch.clear();
-    slab.stretches.clear();
-    slab.controls_m.clear();
-    for (std::size_t d = 0; d < shows.drones.size(); ++d) {
-        slab.first_stretch.push_back(static_cast<std::uint32_t>(slab.stretches.size()));
-        walk(shows.drones[d], shows.grounded[d], begin_s, end_s,
-             [&](double t0, double t1, Bezier curve, bool on_ground) {
-                 scale(curve, shows.downwash);
-                 include(slab.boxes[d], curve);
-                 slab.stretches.push_back({t0, t1, static_cast<std::uint32_t>(slab.controls_m.size()),
-                                           static_cast<std::uint8_t>(curve.degree), on_ground});
-                 slab.controls_m.insert(slab.controls_m.end(), curve.controls().begin(), curve.controls().end());
-                 if (!on_ground) slab.grounded[d] = 0;
-             });
-    }
-    slab.first_stretch.push_back(static_cast<std::uint32_t>(slab.stretches.size()));
+    for (Slab& slab : slabs) slab.first_stretch.push_back(static_cast<std::uint32_t>(slab.stretches.size()));
 }
 
 }  // namespace aerogram::exporter

@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -85,24 +86,35 @@ struct FleetWorst {
     std::size_t drone = 0;  ///< 0-based
 };
 
-/// `per_drone(drone, worst)` for each drone; the least bound, of the first drone that has it.
+inline constexpr std::size_t kDronesAPart = 128;
+
+/// `per_drone(drone, worst)` for each drone, with the worst of those before it in the same part of the fleet, so that
+/// what cannot be worse is passed over; the least bound, of the first part that has it, whatever the threads.
 inline FleetWorst worst_of_fleet(const std::vector<RecordedDrone>& drones, const Run& run, std::string_view stage,
                                  const std::function<void(const RecordedDrone&, Worst&)>& per_drone) {
-    std::vector<Worst> each(drones.size());
-    parallel_for(drones.size(), run, stage, [&](std::size_t d) { per_drone(drones[d], each[d]); });
+    std::vector<FleetWorst> each((drones.size() + kDronesAPart - 1) / kDronesAPart);
+    parallel_for(each.size(), run, stage, [&](std::size_t part) {
+        Worst& worst = each[part].worst;
+        for (std::size_t d = part * kDronesAPart; d < std::min(drones.size(), (part + 1) * kDronesAPart); ++d) {
+            const double before = worst.attained;
+            per_drone(drones[d], worst);
+            if (worst.attained < before) each[part].drone = d;
+        }
+    });
     FleetWorst fleet;
-    for (std::size_t d = 0; d < drones.size(); ++d) {
-        if (each[d].bound < fleet.worst.bound) fleet = {each[d], d};
+    for (const FleetWorst& part : each) {
+        if (part.worst.bound < fleet.worst.bound) fleet = part;
     }
     return fleet;
 }
 
-/// Every piece of a drone with its time.
-template <class Visit>
-void for_each_piece(const RecordedDrone& drone, const Visit& visit) {
-    for (const Piece& piece : drone.pieces) {
-        visit(Timed{curve_of(drone, piece), piece.start_s, piece.start_s + piece.duration_s});
-    }
+/// A piece's control points where they are.
+[[nodiscard]] inline std::span<const Vec3> controls_of(const RecordedDrone& drone, const Piece& piece) {
+    return {&drone.controls_m[piece.first_control], std::size_t{piece.degree} + 1};
+}
+/// A piece with its time.
+[[nodiscard]] inline Timed timed(const RecordedDrone& drone, const Piece& piece) {
+    return {curve_of(drone, piece), piece.start_s, piece.start_s + piece.duration_s};
 }
 
 }  // namespace aerogram::exporter

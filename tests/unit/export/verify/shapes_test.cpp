@@ -80,12 +80,10 @@ TEST(CloseBoxes, AreThoseOfAllPairs) {
     Random random(9);
     for (int round = 0; round < 20; ++round) {
         std::vector<Box> boxes;
-        double mean = 0.0;
         for (int i = 0; i < 150; ++i) {
             const Vec3 low = random.in_box(Vec3(-30.0), Vec3(30.0));
             const double size = i == 0 ? 40.0 : random.in(0.0, 3.0);
             boxes.push_back({low, low + random.in_box(Vec3(0.0), Vec3(size))});
-            mean += size / 150.0;
         }
         const double reach = random.in(0.5, 5.0);
         std::vector<std::pair<std::uint32_t, std::uint32_t>> expected;
@@ -96,7 +94,7 @@ TEST(CloseBoxes, AreThoseOfAllPairs) {
         }
         CloseBoxes grid;
         std::vector<std::pair<std::uint32_t, std::uint32_t>> found;
-        grid.find(boxes, reach, mean, [&](std::uint32_t i, std::uint32_t j) {
+        grid.find(boxes, reach, [&](std::uint32_t i, std::uint32_t j) {
             found.emplace_back(i, j);
             return true;
         });
@@ -111,7 +109,7 @@ TEST(CloseBoxes, NextToNothingIsSearchedInFewCells) {
                                  {Vec3(1e-20, 1e8, 30), Vec3(40, 1e8, 30)},
                                  {Vec3(-1e8, 0, 0), Vec3(1e8, 0, 0)}};
     std::size_t visits = 0;
-    grid.find(boxes, 1e-19, 0.0, [&](std::uint32_t i, std::uint32_t j) {
+    grid.find(boxes, 1e-19, [&](std::uint32_t i, std::uint32_t j) {
         EXPECT_EQ(i, 0U);
         EXPECT_EQ(j, 1U);
         ++visits;
@@ -123,7 +121,7 @@ TEST(CloseBoxes, NextToNothingIsSearchedInFewCells) {
 TEST(CloseBoxes, VisitorEndsTheSearch) {
     CloseBoxes grid;
     std::size_t visits = 0;
-    grid.find(std::vector<Box>(10, Box{Vec3(1.0), Vec3(2.0)}), 1.0, 1.0,
+    grid.find(std::vector<Box>(10, Box{Vec3(1.0), Vec3(2.0)}), 1.0,
               [&](std::uint32_t, std::uint32_t) { return ++visits < 3; });
     EXPECT_EQ(visits, 3U);
 }
