@@ -1,13 +1,23 @@
 // The seam to CHOLMOD: sparse Cholesky of one graph Laplacian.
 #include <cholmod.h>
 
+#include <algorithm>
+#include <mutex>
 #include <new>
+#include <optional>
 
 #include "geo/contract.hpp"
+#include "planner/transition/rigid_gradients.hpp"
 #include "planner/transition/rigid_solver.hpp"
 
 namespace aerogram::planner {
 namespace {
+
+constexpr double kMostWork = 4e9;  ///< multiplications and additions of a factorisation: some seconds
+
+/// METIS draws its random choices from the C library's one generator, which it seeds itself at every call: the same
+/// ordering every time, unless two threads draw at once.
+std::mutex ordering_turn;
 
 /// Whatever CHOLMOD reports: the matrix is well-formed and positive definite by construction, so it is short of memory.
 void check(const cholmod_common& common) {
@@ -23,16 +33,25 @@ struct LaplacianSolver::Impl {
     cholmod_factor* factor = nullptr;
     cholmod_dense *right = nullptr, *solution = nullptr, *work_y = nullptr, *work_e = nullptr;
 
+    std::optional<RingGraph> rings;  ///< of a graph too dense to factor
+
     explicit Impl(const RingGraph& graph) {
         cholmod_start(&common);
         common.print = 0;
         common.supernodal = CHOLMOD_SIMPLICIAL;
-        common.nmethods = 1;  // approximate minimum degree: no random choices
-        common.method[0].ordering = CHOLMOD_AMD;
+        common.nmethods = 1;  // solid formations: a third of the work of approximate minimum degree
+        common.method[0].ordering = CHOLMOD_METIS;
         common.postorder = 1;
         fill(graph);
-        factor = cholmod_analyze(matrix, &common);
+        {
+            const std::lock_guard lock(ordering_turn);
+            factor = cholmod_analyze(matrix, &common);
+        }
         check(common);
+        if (common.fl > kMostWork) {
+            rings = graph;
+            return;
+        }
         cholmod_factorize(matrix, factor, &common);
         check(common);
         cholmod_free_sparse(&matrix, &common);
@@ -83,6 +102,10 @@ LaplacianSolver::~LaplacianSolver() = default;
 
 void LaplacianSolver::solve(std::span<Vec3> b_to_x) {
     Impl& s = *impl_;
+    if (s.rings) {
+        std::ranges::copy(laplacian_gradients(*s.rings, b_to_x), b_to_x.begin());
+        return;
+    }
     const std::size_t n = s.right->nrow;
     AEROGRAM_REQUIRE(b_to_x.size() == n, b_to_x.size(), n);
     double* right = static_cast<double*>(s.right->x);

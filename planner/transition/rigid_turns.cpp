@@ -1,22 +1,34 @@
 #include "planner/transition/rigid_turns.hpp"
 
+#include <algorithm>
 #include <queue>
 #include <tuple>
 
 #include "geo/units.hpp"
 #include "planner/transition/alignment.hpp"
+#include "planner/transition/columns.hpp"
 
 namespace aerogram::planner {
 namespace {
 
-constexpr int kSweeps = 8;            ///< of following the neighbours; what is open spreads one neighbour a sweep
+constexpr int kMostSweeps = 24;       ///< of following the neighbours; what is open spreads one neighbour a sweep
+constexpr double kSettled = 1e-16;    ///< squared change of a rotation's axes in a sweep that changes nothing any more
 constexpr double kFollow = 0.1;       ///< how much neighbours' rotations count beside the own ring
-constexpr double kHome = 1e-4;        ///< how much no rotation counts: decides what no neighbour decides
-constexpr double kHomeAxis = 1e-6;    ///< and turning about the thinnest axis, where even that leaves a tie
+constexpr double kHome = 1e-10;       ///< how much no rotation counts: decides what no neighbour decides
+constexpr double kHomeAxis = 1e-12;   ///< and turning about the thinnest axis, where even that leaves a tie
 constexpr double kFlatValue = 1e-12;  ///< share of the largest singular value that is rounding error
 
 void add(Mat3& sum, const Mat3& m, double factor) {
     for (std::size_t c = 0; c < 3; ++c) sum.columns[c] += factor * m.columns[c];
+}
+
+double squared_difference(const Mat3& a, const Mat3& b) {
+    double sum = 0.0;
+    for (std::size_t c = 0; c < 3; ++c) {
+        const Vec3 d = a.columns[c] - b.columns[c];
+        sum += glm::dot(d, d);
+    }
+    return sum;
 }
 
 Mat3 right_handed(const Vec3& first, const Vec3& second) {
@@ -56,34 +68,64 @@ std::vector<Mat3> correlations(const RingGraph& graph, std::span<const Vec3> sou
     return out;
 }
 
+/// What decides where nothing else does: no turn, or one about the thinnest axis.
+Mat3 stillness(std::span<const Vec3> source_m) {
+    const Vec3 thin = thinnest_axis(centred(source_m, barycentre(source_m)));
+    Mat3 out = zero3();
+    add(out, Mat3{}, kHome);
+    out.add_outer(kHomeAxis * thin, thin);
+    return out;
+}
+
+/// The rotation of each component as one body.
+std::vector<Mat3> component_rotations(const RingGraph& graph, std::span<const Vec3> source_m,
+                                      std::span<const Vec3> target_m, const Mat3& still) {
+    const std::size_t count = graph.first_of.size();
+    Points from_m(count, Vec3{}), to_m(count, Vec3{});
+    std::vector<double> members(count, 0.0), lengths(count, 0.0);
+    for (std::size_t i = 0; i < graph.n; ++i) {
+        from_m[graph.component[i]] += source_m[i];
+        to_m[graph.component[i]] += target_m[i];
+        members[graph.component[i]] += 1.0;
+    }
+    std::vector<Mat3> out(count, zero3());
+    for (std::size_t i = 0; i < graph.n; ++i) {
+        const std::uint32_t c = graph.component[i];
+        const Vec3 s = source_m[i] - from_m[c] / members[c], t = target_m[i] - to_m[c] / members[c];
+        out[c].add_outer(t, s);
+        lengths[c] += glm::length(s) * glm::length(t);
+    }
+    for (std::size_t c = 0; c < count; ++c) {
+        Mat3 wish = still;
+        if (lengths[c] > 0.0) add(wish, out[c], 1.0 / lengths[c]);
+        out[c] = nearest_rotation(wish);
+    }
+    return out;
+}
+
 std::vector<Mat3> ring_rotations(const RingGraph& graph, std::span<const Vec3> source_m,
                                  std::span<const Vec3> target_m) {
-    const std::vector<Mat3> own = correlations(graph, source_m, target_m);
-    Mat3 home;
-    Points centred_m(source_m.begin(), source_m.end());
-    const Vec3 middle = barycentre(source_m);
-    for (Vec3& p : centred_m) p -= middle;
-    const Vec3 thin = thinnest_axis(centred_m);
-    for (std::size_t c = 0; c < 3; ++c) home.columns[c] *= kHome;
-    home.add_outer(kHomeAxis * thin, thin);
-
-    std::vector<Mat3> now(graph.n), before;
-    for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    std::vector<Mat3> own = correlations(graph, source_m, target_m);
+    const Mat3 still = stillness(source_m);
+    const std::vector<Mat3> bodies = component_rotations(graph, source_m, target_m, still);
+    std::vector<Mat3> now(graph.n), before(graph.n);
+    for (std::size_t i = 0; i < graph.n; ++i) {
+        add(own[i], still, 1.0);
+        now[i] = bodies[graph.component[i]];
+    }
+    for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
+        double change = 0.0;
         std::swap(before, now);
-        now.assign(graph.n, Mat3{});
         for (std::uint32_t i = 0; i < graph.n; ++i) {
             Mat3 wish = own[i];
-            add(wish, home, 1.0);
-            if (sweep == 0) {
-                add(wish, Mat3{}, kFollow);
-            } else {
-                const double share = kFollow / ring_weight(graph, i);
-                for (std::uint32_t k = graph.starts[i]; k < graph.starts[i + 1]; ++k) {
-                    add(wish, before[graph.neighbours[k]], share * graph.weights[k]);
-                }
+            const double share = kFollow / ring_weight(graph, i);
+            for (std::uint32_t k = graph.starts[i]; k < graph.starts[i + 1]; ++k) {
+                add(wish, before[graph.neighbours[k]], share * graph.weights[k]);
             }
             now[i] = nearest_rotation(wish);
+            change = std::max(change, squared_difference(now[i], before[i]));
         }
+        if (change < kSettled) break;
     }
     return now;
 }
