@@ -1,11 +1,24 @@
 #include <fstream>
 #include <iterator>
-#include <memory>
+#include <vector>
 
 #include "planner/formation/csv_points.hpp"
 #include "planner/formation/figure.hpp"
+#include "planner/formation/thinning.hpp"
 
 namespace aerogram::planner {
+namespace {
+
+CsvPoints chosen(const CsvPoints& all, const std::vector<std::size_t>& indices) {
+    CsvPoints out;
+    for (const std::size_t i : indices) {
+        out.points_m.push_back(all.points_m[i]);
+        if (!all.colors.empty()) out.colors.push_back(all.colors[i]);
+    }
+    return out;
+}
+
+}  // namespace
 
 Result<Figure> csv_figure(const PartRef& ref, const CsvSource& source) {
     const std::string name = source.file.string();
@@ -14,16 +27,16 @@ Result<Figure> csv_figure(const PartRef& ref, const CsvSource& source) {
     if (!in) return Error{ErrorCode::io, ref.error(".csv = \"" + name + "\": cannot be read").message};
     auto read = parse_csv_points(text, name);
     if (!read) return read.error();
-    if (read->points_m.size() != ref.part.drones) {
-        return ref.error(".csv = \"" + name + "\": has " + std::to_string(read->points_m.size()) + " points for " +
-                         std::to_string(ref.part.drones) + " drones; resampling and spares are not in this version");
+    Figure figure;
+    if (read->points_m.size() > ref.part.drones) {
+        figure.note = "resampled from " + std::to_string(read->points_m.size()) + " points";
+        *read = chosen(*read, thinned(read->points_m, ref.part.drones));
     }
     Vec3 low = read->points_m.front(), high = low;
     for (const Vec3& p : read->points_m) {
         low = glm::min(low, p);
         high = glm::max(high, p);
     }
-    Figure figure;
     figure.extent = high - low;
     figure.colors = std::move(read->colors);
     figure.in_metres = true;

@@ -9,6 +9,7 @@
 
 #include "planner/formation/figure.hpp"
 #include "planner/formation/sizing.hpp"
+#include "planner/formation/spare_places.hpp"
 
 namespace aerogram::planner {
 namespace {
@@ -70,6 +71,7 @@ class Builder {
             if (const Status added = add_part(p); !added) return added.error();
             if (run_.stopped()) return stopped_error();
         }
+        if (const Status added = add_spares(); !added) return added.error();
         check_spacing();
         check_altitudes();
         if (!problems_.empty()) return Error{ErrorCode::invalid_input, problems_};
@@ -94,19 +96,40 @@ class Builder {
             return closest_pair(turned, metric_).distance_m;
         };
         SizedFigure drawn = sized(*figure, part.size, mission_.limits.formation_spacing_m, spacing_of);
-        AEROGRAM_REQUIRE(drawn.points_m.size() == part.drones, drawn.points_m.size(), part.drones);
+        const std::size_t count = drawn.points_m.size();
+        AEROGRAM_REQUIRE(count <= part.drones && count > 0, count, part.drones);
         if (figure->colors_at) figure->colors = figure->colors_at(divided(drawn.points_m, drawn.scale));
         const std::size_t first = out_.points_m.size();
-        for (std::size_t i = 0; i < part.drones; ++i) {
+        for (std::size_t i = 0; i < count; ++i) {
             const Vec3 in_keyframe = part_turn * drawn.points_m[i] + part.center_m;
             out_.points_m.push_back(turn_ * in_keyframe + keyframe_.center_m);
             const Rgb own = figure->colors.empty() ? Rgb{1.0, 1.0, 1.0} : figure->colors[i];
             out_.colors.push_back(part.color.value_or(own));
             out_.part.push_back(static_cast<std::uint32_t>(p));
+            out_.spare.push_back(false);
         }
+        if (!figure->note.empty()) note(alone ? figure->note : "part " + std::to_string(p + 1) + ' ' + figure->note);
         parts_.push_back({std::move(ref), std::move(*figure), std::move(drawn), spacing_of, first});
         return Done{};
     }
+
+    Status add_spares() {
+        const std::size_t count = mission_.fleet.drones - out_.points_m.size();
+        if (count == 0) return Done{};
+        const auto places_m = spare_places(mission_, out_.points_m, count);
+        if (!places_m)
+            return Error{places_m.error().code, mission_.at(keyframe_.line, key_ + ": " + places_m.error().message)};
+        for (const Vec3& place_m : *places_m) {
+            out_.points_m.push_back(place_m);
+            out_.colors.emplace_back();
+            out_.part.push_back(static_cast<std::uint32_t>(keyframe_.parts.size()));
+            out_.spare.push_back(true);
+        }
+        note(describe_spares(mission_.fleet.spares, count));
+        return Done{};
+    }
+
+    void note(const std::string& what) { out_.note += (out_.note.empty() ? "" : "; ") + what; }
 
     void check_spacing() {
         if (out_.points_m.size() < 2) return;
@@ -114,6 +137,8 @@ class Builder {
         out_.smallest_spacing_m = pair.distance_m;
         const double wanted_m = mission_.limits.formation_spacing_m;
         if (pair.distance_m >= wanted_m - kSpacingTolerance_m) return;
+        // Spare places keep the spacing unless the parts do not.
+        AEROGRAM_REQUIRE(!out_.spare[pair.second], pair.first, pair.second, pair.distance_m);
         const PlacedPart& part = parts_[out_.part[pair.first]];
         const bool same_part = out_.part[pair.first] == out_.part[pair.second];
         const std::string slots = "(slots " + std::to_string(SlotId(pair.first).number()) + " and " +
@@ -136,7 +161,7 @@ class Builder {
         const double low_m = mission_.limits.min_navigation_altitude_m, high_m = mission_.limits.ceiling_m;
         for (const PlacedPart& part : parts_) {
             const auto begin = out_.points_m.begin() + static_cast<std::ptrdiff_t>(part.first_slot);
-            const auto end = begin + static_cast<std::ptrdiff_t>(part.ref.part.drones);
+            const auto end = begin + static_cast<std::ptrdiff_t>(part.drawn.points_m.size());
             const auto [low, high] =
                 std::minmax_element(begin, end, [](const Vec3& a, const Vec3& b) { return a.z < b.z; });
             const auto slot_at = [&](Points::iterator place) {
@@ -179,7 +204,7 @@ Result<Formation> build_formation(const Mission& mission, std::size_t index, con
     const auto& parts = mission.keyframes[index].parts;
     const auto drones = std::accumulate(parts.begin(), parts.end(), std::size_t{0},
                                         [](std::size_t sum, const Part& part) { return sum + part.drones; });
-    AEROGRAM_REQUIRE(drones == mission.fleet.drones, drones, mission.fleet.drones);
+    AEROGRAM_REQUIRE(drones <= mission.fleet.drones, drones, mission.fleet.drones);
     return Builder(mission, index, run).build();
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 #include <cstddef>
+#include <cstdint>
+#include <string>
 #include <vector>
 
 #include "geo/color.hpp"
@@ -14,11 +16,15 @@ namespace aerogram::planner {
 struct Formation {
     Points points_m;                  ///< show frame
     std::vector<Rgb> colors;          ///< linear
-    std::vector<std::uint32_t> part;  ///< index into Keyframe::parts
-    double smallest_spacing_m = 0.0;  ///< in the separation metric; 0 for a single slot
+    std::vector<std::uint32_t> part;  ///< index into Keyframe::parts; their number for spare slots
+    std::vector<bool> spare;          ///< the drone waits here, dark: the parts do not need it
+    double smallest_spacing_m = 0.0;  ///< in the separation metric; 0 for a single slot; spare slots count
+    std::string note;                 ///< what people should know, for reports; may be empty
 };
 
-/// The formation of mission.keyframes[index]: exactly fleet.drones slots, in a stable order, placed in the show frame.
+/// The formation of mission.keyframes[index]: exactly fleet.drones slots, in a stable order, placed in the show frame:
+/// those of the parts one after another, then the spare ones (spare_places.hpp), when parts take fewer drones than the
+/// fleet has or a csv has fewer points than drones. A csv with more points is thinned (thinning.hpp).
 /// Properties: (1) N exact (2) smallest spacing >= limits.formation_spacing_m (3) ends and corners of strokes are
 /// occupied whenever N allows (4) same mission, same bytes. Errors: invalid_input at the part's line when the source is
 /// unusable, when the spacing does not fit ("needs size_m >= ..."), or when a slot is below the minimum navigation

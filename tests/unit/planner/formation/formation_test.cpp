@@ -283,13 +283,6 @@ TEST(FormationErrors, TooLowAndTooHighSlotsAreNamed) {
         "show.toml:7: keyframe[1].center_m: slot 1 stands at z = 125.00 m, above ceiling_m = 120; lower it by 5 m");
 }
 
-TEST(FormationErrors, ACsvMustHaveThePartsDrones) {
-    const Csv csv("x,y,z\n0,0,0\n5,0,0\n");
-    EXPECT_EQ(failure(mission_of({part_of(csv.source(), 3)})),
-              "show.toml:7: keyframe[1].csv = \"" + csv.name() +
-                  "\": has 2 points for 3 drones; resampling and spares are not in this version");
-}
-
 TEST(FormationErrors, AWrongCsvIsNamedByItsOwnLine) {
     const Csv csv("x,y,z\n0,0,0\n5,0\n");
     EXPECT_EQ(failure(mission_of({part_of(csv.source(), 2)})), csv.name() + ":3: 2 fields, expected 3");
