@@ -10,7 +10,6 @@ namespace aerogram::planner {
 /// @returns free x fixed shares >= 0.
 /// Properties: (1) a row sums to 1, or to 0 where nothing joins the vertex to a fixed one (2) with one fixed vertex all
 /// shares are 1 or 0 (3) harmonic: weighted mean of the neighbours' to 1e-9.
-[[nodiscard]] dense::Matrix harmonic_pull(const AdjacencyGraph& source, const AdjacencyGraph& target,
-                                          std::size_t free);
+[[nodiscard]] dense::Matrix harmonic_pull(const AdjacencyGraph& source, const AdjacencyGraph& target, std::size_t free);
 
 }  // namespace aerogram::planner

@@ -134,7 +134,8 @@ class Builder {
         const auto turn = own_turn(group.method, group.spectral, from.positions_m, to.positions_m);
         if (turn) around.push_back(*turn);
         for (std::size_t k = 0; k < body.parts.size(); ++k) {
-            auto part = build_part(source, target, group.inside[k], ids, body.parts[k].places, around, turn.has_value());
+            auto part =
+                build_part(source, target, group.inside[k], ids, body.parts[k].places, around, turn.has_value());
             if (!part) return part.error();
             body.parts[k].body = std::move(*part);
         }
@@ -238,10 +239,9 @@ Result<Interpolation> interpolation(Method method, const SpectralKeyframe& sourc
     auto built = SpectralTransition::between(source, target, spectral, run);
     if (!built) return built.error();
     const auto transition = std::make_shared<const SpectralTransition>(std::move(*built));
-    return Interpolation([transition](double t, std::span<Vec3> out) { transition->at(t, out); },
-                         [transition](std::span<const double> shares, std::span<Vec3> out) {
-                             transition->sample(shares, out);
-                         });
+    return Interpolation(
+        [transition](double t, std::span<Vec3> out) { transition->at(t, out); },
+        [transition](std::span<const double> shares, std::span<Vec3> out) { transition->sample(shares, out); });
 }
 
 Result<Interpolation> hierarchical_interpolation(const SpectralKeyframe& source, const SpectralKeyframe& target,

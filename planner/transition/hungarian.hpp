@@ -10,7 +10,7 @@
 namespace aerogram::planner {
 
 /// The matching of rows to columns with the largest sum of scores: result[row] = column. Exact.
-/// @param scores  n x n, row-major; integers, so that equal scores are equal; |score| < 2^40.
+/// @param scores  n x n, row-major; integers, so that equal scores are equal; |score| < 2^44.
 /// Cost: O(n³) by shortest augmenting paths; ties go to the lowest column. Source: Kuhn 1955; Jonker and Volgenant
 /// 1987.
 [[nodiscard]] inline std::vector<std::size_t> best_matching(std::span<const std::int64_t> scores, std::size_t n) {

@@ -20,8 +20,8 @@ class Interpolation {
     using Sample = std::function<void(std::span<const double>, std::span<Vec3>)>;
 
     template <class Callable>
-        requires std::invocable<const Callable&, double, std::span<Vec3>>
-    Interpolation(Callable at) : at_(std::move(at)) {}  // NOLINT(google-explicit-constructor)
+    requires std::invocable<const Callable&, double, std::span<Vec3>> Interpolation(Callable at)
+        : at_(std::move(at)) {}  // NOLINT(google-explicit-constructor)
     Interpolation(At at, Sample sample) : at_(std::move(at)), sample_(std::move(sample)) {}
 
     /// @param out  one place a drone.

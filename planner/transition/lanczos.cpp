@@ -16,7 +16,8 @@ using dense::Matrix;
 using dense::Op;
 
 constexpr std::size_t kBlock = 8;          // also the multiplicity that is found without starting again
-constexpr double kConverged = 1e-11;       // residual of a Ritz pair over its value
+constexpr double kConverged = 1e-11;       // residual of a Ritz pair over its value,
+constexpr double kRounding = 1e-13;        // or over the largest: a long chain's values span seven decades
 constexpr double kDependent = 1e-10;       // a rest below this share of a column is rounding
 constexpr std::uint64_t kStartSeed = 101;  // the result does not depend on it but for rounding
 constexpr int kPowerSteps = 60;
@@ -261,7 +262,8 @@ Result<LowModes> lanczos_low_modes(const AdjacencyGraph& graph, std::size_t coun
         std::size_t known = 0;
         std::vector<double> values;
         for (std::size_t k = m; k-- > 0; ++known) {
-            if (!(ritz.residuals[k] <= kConverged * ritz.eigen.values[k])) break;
+            const double enough = std::max(kConverged * ritz.eigen.values[k], kRounding * ritz.eigen.values.back());
+            if (!(ritz.residuals[k] <= enough)) break;
             values.push_back(1.0 / ritz.eigen.values[k]);
         }
         const std::optional<std::size_t> cut = cut_of(values, known, count, gap);

@@ -88,6 +88,7 @@ std::size_t cut_of(const std::vector<Place>& places, double known_below, std::si
 
 Result<Eigenbasis> low_eigenbasis(const AdjacencyGraph& graph, std::size_t count, const Run& run) {
     AEROGRAM_REQUIRE(graph.n >= 1, graph.n);
+    if (count == 0) return Eigenbasis{Matrix(graph.n, 0), {}, {}};
     const double gap = kEigenspaceTolerance * largest_eigenvalue(graph);
     std::vector<Component> parts = components(graph);
     std::vector<Place> places;

@@ -7,6 +7,7 @@
 
 #include "geo/contract.hpp"
 #include "planner/transition/hungarian.hpp"
+#include "planner/transition/max_min.hpp"
 
 namespace aerogram::planner {
 namespace {
@@ -68,6 +69,7 @@ Matching greedy_matching(const std::vector<std::int64_t>& scores, std::size_t n)
 
 Matching matching_by(const std::vector<std::int64_t>& scores, std::size_t n, Reorder reorder) {
     if (reorder == Reorder::optimal) return best_matching(scores, n);
+    if (reorder == Reorder::max_min) return max_min_matching(scores, n);
     if (reorder == Reorder::greedy) return greedy_matching(scores, n);
     Matching same(n);
     std::iota(same.begin(), same.end(), std::size_t{0});

@@ -12,7 +12,7 @@ namespace aerogram::planner {
 
 /// A keyframe as a spectral transition sees it: where each DRONE is and who its neighbours are there. Obstacles may be
 /// vertices of the graph too, so that drones keep their clearance of them as they keep to one another (paper 000,
-/// section 5.3): see with_obstacles in planner/adjacency/obstacle_vertices.hpp.
+/// section 5.3): see obstacle_adjacency.
 struct SpectralKeyframe {
     Points positions_m;    ///< n >= 1, by drone
     AdjacencyGraph graph;  ///< n individuals, then the fixed vertices; may be disconnected

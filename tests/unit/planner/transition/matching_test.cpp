@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "planner/transition/hungarian.hpp"
+#include "planner/transition/max_min.hpp"
 #include "tests/unit/planner/transition/shapes.hpp"
 
 namespace aerogram::planner {
@@ -40,6 +41,52 @@ TEST(Hungarian, NothingToMatchIsFine) {
     EXPECT_TRUE(best_matching({}, 0).empty());
 }
 
+TEST(MaxMin, FindsTheLargestSmallestScoreAndThenTheLargestSumOfAllPermutations) {
+    const int count = tries(300);
+    for (int seed = 1; seed <= count; ++seed) {
+        SCOPED_TRACE(seed);
+        Random random(static_cast<std::uint64_t>(seed));
+        const std::size_t n = random.below(8);
+        std::vector<std::int64_t> scores(n * n);
+        for (auto& s : scores)
+            s = static_cast<std::int64_t>(random.below(seed % 2 == 0 ? 5 : std::uint64_t{1} << 30));  // ties or none
+        std::vector<std::size_t> order(n);
+        std::iota(order.begin(), order.end(), std::size_t{0});
+        const auto smallest = [&](const std::vector<std::size_t>& match) {
+            std::int64_t least = std::int64_t{1} << 40;
+            for (std::size_t k = 0; k < n; ++k) least = std::min(least, scores[k * n + match[k]]);
+            return least;
+        };
+        std::pair<std::int64_t, std::int64_t> best{-1, -1};
+        do best = std::max(best, std::pair(smallest(order), score_of(scores, order)));
+        while (std::next_permutation(order.begin(), order.end()));
+        const std::vector<std::size_t> found = max_min_matching(scores, n);
+        EXPECT_EQ(std::pair(smallest(found), score_of(scores, found)), best);
+    }
+}
+
+TEST(MatchedBases, MaxMinNeverHasASmallerSmallestProductThanGreedy) {
+    const int count = tries(30);
+    int better = 0;
+    for (int seed = 1; seed <= count; ++seed) {
+        SCOPED_TRACE(seed);
+        Random random(static_cast<std::uint64_t>(seed));
+        const std::size_t n = 5 + random.below(25);
+        const Eigenbasis source = laplacian_eigenbasis(full_graph(random_points(random, n)));
+        const Eigenbasis target = laplacian_eigenbasis(full_graph(random_points(random, n)));
+        const auto smallest = [&](Reorder r) {
+            const dense::Matrix turn = matched_bases(source.modes, source.spaces, target, r).turn;
+            double least = 1.0;
+            for (std::size_t k = 0; k < turn.columns; ++k) least = std::min(least, std::abs(turn(k, k)));
+            return least;
+        };
+        const double greedy = smallest(Reorder::greedy), max_min = smallest(Reorder::max_min);
+        EXPECT_GE(max_min, greedy - 1e-8);
+        better += max_min > greedy + 1e-3 ? 1 : 0;
+    }
+    EXPECT_GT(better, count / 2);
+}
+
 double diagonal_sum(const dense::Matrix& turn) {
     double sum = 0.0;
     for (std::size_t k = 0; k < turn.columns; ++k) sum += std::abs(turn(k, k));
@@ -71,7 +118,7 @@ TEST(MatchedBases, Property2DeterminantIsOneAndOnlyTheWeakestColumnIsFlipped) {
         const std::size_t n = 1 + random.below(25);
         const Eigenbasis source = laplacian_eigenbasis(nearest_graph(random_points(random, n), 3));
         const Eigenbasis target = laplacian_eigenbasis(nearest_graph(random_points(random, n), 3));
-        for (const Reorder reorder : {Reorder::none, Reorder::greedy, Reorder::optimal}) {
+        for (const Reorder reorder : {Reorder::none, Reorder::greedy, Reorder::max_min, Reorder::optimal}) {
             const MatchedBases bases = matched_bases(source.modes, source.spaces, target, reorder);
             expect_proper(bases);
             for (std::size_t k = 0; k + 1 < n; ++k) flips += bases.turn(k, k) < -1e-9 ? 1 : 0;
@@ -92,7 +139,7 @@ TEST(MatchedBases, Property3EqualGraphsTurnNothingEvenWithRepeatedEigenvalues) {
             set_column_block(target.modes, s.first,
                              times(column_block(target.modes, s.first, s.last), random_basis(random, s.dimension())));
         }
-        for (const Reorder reorder : {Reorder::none, Reorder::greedy, Reorder::optimal}) {
+        for (const Reorder reorder : {Reorder::none, Reorder::greedy, Reorder::max_min, Reorder::optimal}) {
             const MatchedBases bases = matched_bases(source.modes, source.spaces, target, reorder);
             EXPECT_LT(largest_difference(bases.turn, identity(graph.n - 1)), 1e-10);
         }

@@ -58,7 +58,7 @@ std::vector<Pair> pairs() {
 std::vector<SpectralOptions> all_options() {
     std::vector<SpectralOptions> out;
     for (const Align align : {Align::pca, Align::kabsch, Align::none}) {
-        for (const Reorder reorder : {Reorder::greedy, Reorder::optimal, Reorder::none}) {
+        for (const Reorder reorder : {Reorder::greedy, Reorder::max_min, Reorder::optimal, Reorder::none}) {
             for (const bool inflate : {false, true}) out.push_back({align, reorder, inflate});
         }
     }
@@ -279,6 +279,90 @@ TEST(SpectralTransition, Property6SameBytesAgainAndOnManyThreads) {
     for (Points& mine : found) threads.emplace_back([&] { mine = positions(built(source, target), 30, 0.4); });
     for (std::thread& t : threads) t.join();
     for (const Points& mine : found) EXPECT_EQ(mine, expected);
+}
+
+TEST(SpectralTransition, ManyInstantsAtOnceAreTheSameFrames) {
+    for (const Pair& pair : pairs()) {
+        const std::size_t n = pair.source.positions_m.size();
+        const SpectralTransition transition = built(pair.source, pair.target);
+        std::vector<double> shares;
+        for (int i = 0; i <= 130; ++i) shares.push_back(i / 130.0);  // more than are done together
+        Points rows(shares.size() * n);
+        transition.sample(shares, rows);
+        for (const std::size_t s : {0U, 1U, 63U, 64U, 100U, 130U}) {
+            EXPECT_LT(largest_distance(positions(transition, n, shares[s]), std::span(rows).subspan(s * n, n)), 1e-10)
+                << pair.name;
+        }
+    }
+}
+
+SpectralTransition with_modes(const Pair& pair, std::size_t modes, const SpectralOptions& options = {}) {
+    auto result = SpectralTransition::with_modes(pair.source, pair.target, options, modes, ::aerogram::Run{});
+    return std::move(result).value();
+}
+
+TEST(SpectralTransition, Property1And7FewModesMeetTheEndsAndAllModesAreTheFullTransition) {
+    for (const Pair& pair : pairs()) {
+        const std::size_t n = pair.source.positions_m.size();
+        const Points expected = positions(built(pair.source, pair.target), n, 0.5);
+        EXPECT_LT(largest_distance(positions(with_modes(pair, n - 1), n, 0.5), expected), 1e-9) << pair.name;
+        for (std::size_t modes = 0; modes < n; ++modes) {
+            for (const bool inflate : {false, true}) {
+                const SpectralTransition few = with_modes(pair, modes, {Align::kabsch, Reorder::optimal, inflate});
+                EXPECT_LT(largest_distance(positions(few, n, 0.0), pair.source.positions_m), 1e-9) << pair.name;
+                EXPECT_LT(largest_distance(positions(few, n, 1.0), pair.target.positions_m), 1e-9) << pair.name;
+                for (const Vec3& p : positions(few, n, 0.37)) EXPECT_TRUE(is_finite(p)) << pair.name;
+            }
+        }
+    }
+}
+
+TEST(SpectralTransition, Property7TheSparseWayWithAllButFewModesIsCloseToTheFullOne) {
+    Random random(43);  // a smooth deformation: detail is small, so few modes tell nearly all
+    Points a, b;
+    for (int i = 0; i < 160; ++i) {
+        const Vec3 p{2.5 * (i % 16) + random.between(-0.1, 0.1), 0.0, 2.5 * (i / 16) + random.between(-0.1, 0.1)};
+        a.push_back(p);
+        b.push_back({1.3 * p.x + 0.02 * p.z * p.z, 4.0 * std::sin(0.1 * p.x), 0.9 * p.z});
+    }
+    const Pair pair{"deformed", {a, delaunay_adjacency(a)}, {b, delaunay_adjacency(b)}};
+    const Points full = positions(built(pair.source, pair.target), 160, 0.5);
+    const double coarse = largest_distance(positions(with_modes(pair, 10), 160, 0.5), full),
+                 fine = largest_distance(positions(with_modes(pair, 60), 160, 0.5), full);
+    EXPECT_LT(coarse, 6.0);
+    EXPECT_LT(fine, 2.0);
+}
+
+TEST(SpectralTransition, FewModesFlyARigidMotionRigidly) {
+    Random random(44);
+    const Points shape = random_points(random, 60);
+    const RigidMotion motion = random_motion(random);
+    const Pair pair{"moved", keyframe(shape), {motion(shape), keyframe(shape).graph}};
+    const Points now = positions(with_modes(pair, 12), 60, 0.4);
+    for (std::size_t i = 0; i < 60; ++i) {
+        EXPECT_NEAR(glm::distance(now[0], now[i]), glm::distance(shape[0], shape[i]), 1e-8);
+    }
+}
+
+TEST(SpectralTransition, MoreThanTheFullBasisStillMeetsTheEnds) {
+    Points a, b;
+    for (std::size_t i = 0; i < kFullBasis + 100; ++i) {
+        const double u = static_cast<double>(i);
+        a.push_back({2.2 * std::fmod(u, 52.0), 0.0, 2.2 * std::floor(u / 52.0)});
+        b.push_back({0.02 * u * std::cos(0.1 * u), 0.02 * u * std::sin(0.1 * u), 0.03 * u});
+    }
+    const auto chain = [](const Points& points) {  // four neighbours on, so that graphs cost nothing
+        AdjacencyGraph g{points.size(), {}};
+        for (std::uint32_t i = 0; i < points.size(); ++i) {
+            for (const std::uint32_t step : {1U, 52U}) {
+                if (i + step < points.size()) g.edges.push_back({i, i + step, 1.0});
+            }
+        }
+        return SpectralKeyframe{points, g};
+    };
+    const SpectralTransition transition = built(chain(a), chain(b));
+    EXPECT_LT(largest_distance(positions(transition, a.size(), 0.0), a), 1e-9);
+    EXPECT_LT(largest_distance(positions(transition, a.size(), 1.0), b), 1e-9);
 }
 
 TEST(SpectralTransition, StopsWhenAsked) {
