@@ -188,6 +188,33 @@ TEST(BoundSeparation, Property1And2_LatticesInBlocksOfEveryLengthBracketADenseSa
     }
 }
 
+/// In a fleet that hardly moves, and so is taken in long blocks, one drone darts towards another and back.
+TEST(BoundSeparation, AShortApproachInsideALongBlockIsFound) {
+    Random random(58);
+    for (int round = 0; round < 20; ++round) {
+        const Points sheet = grid(7, 6.0);
+        const std::size_t intervals = 130, n = sheet.size();
+        const std::size_t darting = 7 * random.below(7) + random.below(6), other = darting + 1,
+                          middle = 5 + random.below(120);
+        const double reach_m = random.between(3.0, 5.5);
+        Lattice lattice{n, {}};
+        for (std::size_t k = 0; k < intervals + 3; ++k) {
+            for (std::size_t i = 0; i < n; ++i) {
+                const double from_middle = (static_cast<double>(k) - static_cast<double>(middle)) / 4.0;
+                const double share = i == darting ? std::exp(-from_middle * from_middle) : 0.0;
+                lattice.points_m.push_back(sheet[i] + share * reach_m * glm::normalize(sheet[other] - sheet[darting]) +
+                                           0.01 * static_cast<double>(k) * Vec3{1, 1, 0});
+            }
+        }
+        const double least_m = sampled_m(lattice, {}, 20);
+        ASSERT_LT(least_m, 4.0);
+        const auto bound = bound_separation(lattice, 1.0, {}, 12.0, {}).value();
+        EXPECT_LE(bound.lower_bound_m, least_m);
+        EXPECT_GE(bound.lower_bound_m, least_m - 1e-3);
+        EXPECT_TRUE(bound.closest->first == DroneId(darting) || bound.closest->second == DroneId(darting));
+    }
+}
+
 TEST(BoundSeparation, LatticeOfAStraightActAgreesWithItAtAnyScale) {
     Random random(54);
     for (const std::size_t rows : {9U, 43U, 203U}) {
