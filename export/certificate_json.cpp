@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "export/json_fields.hpp"
@@ -13,6 +14,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Field = json::Field<Json>;
 using planner::ActCertificate, planner::Encounter;
+constexpr double kNoTurnRate_dps = std::numeric_limits<double>::infinity();
 constexpr std::array kRoles{"takeoff", "transit", "hold", "landing"};
 
 Json or_null(const std::optional<double>& value) {
@@ -22,32 +24,38 @@ Json or_null(const std::optional<double>& value) {
 Json to_json(const ActCertificate& act) {
     const std::optional<Encounter>& closest = act.separation.closest;
     const double start_s = seconds_from_ms(act.start_ms);
-    return {{"name", act.name},
-            {"role", kRoles.at(static_cast<std::size_t>(act.role))},
-            {"certified", act.certified()},
-            {"start_s", start_s},
-            {"duration_s", seconds_from_ms(act.duration_ms)},
-            {"required_separation_m", act.required_separation_m},
-            {"min_separation_m", or_null(act.separation.lower_bound_m)},
-            {"closest_m", closest ? Json(closest->distance_m) : Json(nullptr)},
-            {"pair", closest ? Json::array({closest->first.number(), closest->second.number()}) : Json(nullptr)},
-            {"time_s", closest ? Json(start_s + closest->time_s) : Json(nullptr)},
-            {"max_speed_horizontal_mps", act.extremes.speed_horizontal_mps},
-            {"max_speed_up_mps", act.extremes.speed_up_mps},
-            {"max_speed_down_mps", act.extremes.speed_down_mps},
-            {"max_acceleration_mps2", act.extremes.acceleration_mps2},
-            {"max_jerk_mps3", act.extremes.jerk_mps3},
-            {"altitude_min_m", act.altitude_min_m},
-            {"altitude_max_m", act.altitude_max_m},
-            {"geofence_margin_m", or_null(act.geofence_margin_m)},
-            {"audience_margin_m", or_null(act.audience_margin_m)},
-            {"obstacle_margin_m", or_null(act.obstacle_margin_m)},
-            {"method", act.method},
-            {"assignment", act.assignment},
-            {"path_ratio", act.path_ratio},
-            {"separation_by", act.separation_by},
-            {"separation_rounds", act.separation_rounds},
-            {"violations", act.violations}};
+    Json json{{"name", act.name},
+              {"role", kRoles.at(static_cast<std::size_t>(act.role))},
+              {"certified", act.certified()},
+              {"start_s", start_s},
+              {"duration_s", seconds_from_ms(act.duration_ms)},
+              {"required_separation_m", act.required_separation_m},
+              {"min_separation_m", or_null(act.separation.lower_bound_m)},
+              {"closest_m", closest ? Json(closest->distance_m) : Json(nullptr)},
+              {"pair", closest ? Json::array({closest->first.number(), closest->second.number()}) : Json(nullptr)},
+              {"time_s", closest ? Json(start_s + closest->time_s) : Json(nullptr)},
+              {"max_speed_horizontal_mps", act.extremes.speed_horizontal_mps},
+              {"max_speed_up_mps", act.extremes.speed_up_mps},
+              {"max_speed_down_mps", act.extremes.speed_down_mps},
+              {"max_acceleration_mps2", act.extremes.acceleration_mps2},
+              {"max_jerk_mps3", act.extremes.jerk_mps3},
+              {"altitude_min_m", act.altitude_min_m},
+              {"altitude_max_m", act.altitude_max_m},
+              {"geofence_margin_m", or_null(act.geofence_margin_m)},
+              {"audience_margin_m", or_null(act.audience_margin_m)},
+              {"obstacle_margin_m", or_null(act.obstacle_margin_m)},
+              {"method", act.method},
+              {"assignment", act.assignment},
+              {"path_ratio", act.path_ratio},
+              {"separation_by", act.separation_by},
+              {"separation_rounds", act.separation_rounds},
+              {"violations", act.violations}};
+    if (act.plane) {
+        json["min_airspeed_mps"] = act.plane->airspeed_min_mps.value;
+        json["max_airspeed_mps"] = act.plane->airspeed_max_mps.value;
+        json["max_turn_rate_dps"] = or_null(act.plane->turn_rate_dps.value);
+    }
+    return json;
 }
 
 std::string role(const Field& field) {
@@ -87,6 +95,11 @@ CertifiedAct act(const Field& field) {
     a.geofence_margin_m = field["geofence_margin_m"].number_or_null();
     a.audience_margin_m = field["audience_margin_m"].number_or_null();
     a.obstacle_margin_m = field["obstacle_margin_m"].number_or_null();
+    if (field.has("min_airspeed_mps")) {
+        // No rate at all is claimed where it is null: somebody stands in the air.
+        const double turn_rate_dps = field["max_turn_rate_dps"].number_or_null().value_or(kNoTurnRate_dps);
+        a.plane = {field["min_airspeed_mps"].number(), field["max_airspeed_mps"].number(), turn_rate_dps};
+    }
     a.method = field["method"].text();
     a.assignment = field["assignment"].text();
     a.path_ratio = field["path_ratio"].number();

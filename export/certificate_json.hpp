@@ -27,6 +27,10 @@ struct CertifiedAct {
     double acceleration_mps2 = 0.0, jerk_mps3 = 0.0;
     double altitude_min_m = 0.0, altitude_max_m = 0.0;
     std::optional<double> geofence_margin_m, audience_margin_m, obstacle_margin_m;
+    struct Plane {
+        double airspeed_min_mps = 0.0, airspeed_max_mps = 0.0, turn_rate_dps = 0.0;
+    };
+    std::optional<Plane> plane;  ///< of planes alone
     std::string method, separation_by, assignment;
     int separation_rounds = 0;
     double path_ratio = 1.0;

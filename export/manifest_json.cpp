@@ -36,6 +36,18 @@ constexpr std::array kLimits{
     NamedLimit{"ceiling_m", &Limits::ceiling_m},
 };
 
+struct NamedPlaneLimit {
+    const char* key;
+    double PlaneLimits::*value;
+};
+constexpr std::array kPlaneLimits{
+    NamedPlaneLimit{"airspeed_min_mps", &PlaneLimits::airspeed_min_mps},
+    NamedPlaneLimit{"airspeed_max_mps", &PlaneLimits::airspeed_max_mps},
+    NamedPlaneLimit{"turn_rate_dps", &PlaneLimits::turn_rate_dps},
+    NamedPlaneLimit{"climb_mps", &PlaneLimits::climb_mps},
+    NamedPlaneLimit{"sink_mps", &PlaneLimits::sink_mps},
+};
+
 // --- writing ---
 
 Json or_null(const std::optional<double>& value) {
@@ -53,6 +65,9 @@ Json to_json(const geo::ShowOrigin& origin) {
 Json to_json(const Limits& limits) {
     Json object = Json::object();
     for (const NamedLimit& limit : kLimits) object[limit.key] = limits.*limit.value;
+    if (!limits.plane) return object;
+    Json& plane = object["plane"] = Json::object();
+    for (const NamedPlaneLimit& limit : kPlaneLimits) plane[limit.key] = (*limits.plane).*limit.value;
     return object;
 }
 
@@ -129,6 +144,10 @@ Limits read_limits(const Field& field) {
     Limits limits;
     for (const NamedLimit& limit : kLimits) limits.*limit.value = field[limit.key].number(0.0);
     if (limits.downwash < 1.0) field["downwash"].wrong("must be at least 1");
+    if (!field.has("plane")) return limits;
+    limits.plane.emplace();
+    for (const NamedPlaneLimit& limit : kPlaneLimits)
+        (*limits.plane).*limit.value = field["plane"][limit.key].number(0.0);
     return limits;
 }
 

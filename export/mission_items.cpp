@@ -34,6 +34,17 @@ double hold_s(const planner::PlannedKeyframe& keyframe) {
     return std::max(kShortestHold_s, std::round(seconds_from_ms(keyframe.stands_to_ms - keyframe.stands_from_ms)));
 }
 
+/// Acts that begin at rest repeat their first control points.
+bool begins_in_flight(const Act& act) {
+    if (!std::holds_alternative<planner::Lattice>(act.motion)) return false;
+    constexpr double kStill_m = 1e-6;
+    for (std::size_t i = 0; i < drone_count(act.motion); ++i) {
+        const Vec3 way = planner::control_point(act.motion, 2, i) - planner::control_point(act.motion, 0, i);
+        if (glm::length(way) > kStill_m) return true;
+    }
+    return false;
+}
+
 bool above_home(int frame) {
     return frame == mav::kGlobalRelative || frame == mav::kGlobalRelativeInt;
 }
@@ -46,6 +57,9 @@ bool amsl(int frame) {
 std::string unsuited_for_missions(const FlightPlan& plan) {
     if (!plan.origin.geoid_undulation_m)
         return "planned homes are above mean sea level: the mission needs geoid_undulation_m";
+    if (plan.limits.plane) return "planes: they would take off upright and stop at every waypoint";
+    if (std::ranges::any_of(plan.acts, begins_in_flight))
+        return "a show that rides along a route: its formations do not stand where a waypoint could be";
     const std::size_t items = plan.keyframes.size() + 4;
     if (items > kMostMissionItems)
         return std::to_string(items) + " mission items a drone; at most " + std::to_string(kMostMissionItems) + " fit";

@@ -18,7 +18,23 @@ namespace {
 using Json = nlohmann::ordered_json;
 using planner::ActRole, planner::FlightPlan;
 
-constexpr const char* kFile = "show.skyc";
+/// The drones of one file: a fleet too large for one goes out as several.
+struct Part {
+    std::size_t number = 1, parts = 1;  ///< from 1
+    std::size_t first = 0, end = 0;     ///< drones, 0-based
+};
+
+std::size_t part_count(const FlightPlan& plan) {
+    return (plan.drones() + kSkycDrones - 1) / kSkycDrones;
+}
+Part part_of(const FlightPlan& plan, std::size_t number) {
+    const std::size_t parts = part_count(plan);
+    return {number, parts, (number - 1) * plan.drones() / parts, number * plan.drones() / parts};
+}
+std::string file_of(const Part& part) {
+    return part.parts == 1 ? "show.skyc" : "show-" + std::to_string(part.number) + ".skyc";
+}
+
 constexpr double kEyeHeight_m = 1.7;
 
 std::string text_of(const Json& json) {
@@ -101,7 +117,7 @@ Json segments(const FlightPlan& plan) {
     return result;
 }
 
-Json meta(const FlightPlan& plan, const Seal& seal) {
+Json meta(const FlightPlan& plan, const Seal& seal, const Part& part) {
     std::string title = plan.name;
     if (!seal.certified) title.insert(0, kUncertifiedTitle);
     if (!plan.origin.geoid_undulation_m) title += kNoLocationTitle;
@@ -111,6 +127,7 @@ Json meta(const FlightPlan& plan, const Seal& seal) {
              {"exportMargin", plan.limits.export_margin_m},
              {"maxJerk", plan.limits.jerk_mps3}};
     if (plan.origin.geoid_undulation_m) own["geoidUndulation"] = *plan.origin.geoid_undulation_m;
+    if (part.parts > 1) own["part"] = {part.number, part.parts};
     return {{"title", title}, {"id", seal.show_hash}, {"segments", segments(plan)}, {"aerogram", own}};
 }
 
@@ -150,14 +167,14 @@ Json drone(const FlightPlan& plan, std::size_t i) {
     return {{"type", "generic"}, {"settings", settings}};
 }
 
-std::string show_json(const FlightPlan& plan, const Seal& seal) {
+std::string show_json(const FlightPlan& plan, const Seal& seal, const Part& part) {
     Json drones = Json::array();
-    for (std::size_t i = 0; i < plan.drones(); ++i) drones.push_back(drone(plan, i));
+    for (std::size_t i = part.first; i < part.end; ++i) drones.push_back(drone(plan, i));
     const Json show{{"version", 1},
                     {"swarm", {{"drones", std::move(drones)}}},
                     {"environment", environment(plan)},
                     {"settings", {{"cues", reference("cues.json")}, {"validation", validation(plan.limits)}}},
-                    {"meta", meta(plan, seal)}};
+                    {"meta", meta(plan, seal, part)}};
     return text_of(show);
 }
 
@@ -173,25 +190,28 @@ std::string lights_json(const FlightPlan& plan, std::size_t i) {
 }
 
 std::string unsuited(const FlightPlan& plan) {
-    if (plan.drones() > kSkycDrones)
-        return std::to_string(plan.drones()) + " drones; at most " + std::to_string(kSkycDrones) + " fit into one file";
+    if (plan.limits.plane) return "planes: the format is for drones that take off, hover and land";
     return skyc_misfit(plan);
 }
 
 Result<std::vector<std::string>> write(const FlightPlan& plan, const Seal& seal, const std::filesystem::path& folder,
                                        const Run& run) {
-    AEROGRAM_REQUIRE(plan.drones() <= kSkycDrones, plan.drones());
-    auto trajectories = skyc_trajectories(plan, run);
-    if (!trajectories) return trajectories.error();
-    std::vector<FileBytes> entries{{"show.json", show_json(plan, seal)}, {"cues.json", cues_json(plan.cues)}};
-    for (std::size_t i = 0; i < plan.drones(); ++i) {
-        const std::string place = "drones/" + drone_name(i + 1, plan.drones()) + "/";
-        entries.push_back({place + "trajectory.json", std::move((*trajectories)[i])});
-        entries.push_back({place + "lights.json", lights_json(plan, i)});
+    std::vector<std::string> files;
+    for (std::size_t number = 1; number <= part_count(plan); ++number) {
+        const Part part = part_of(plan, number);
+        auto trajectories = skyc_trajectories(plan, part.first, part.end, run);
+        if (!trajectories) return trajectories.error();
+        std::vector<FileBytes> entries{{"show.json", show_json(plan, seal, part)}, {"cues.json", cues_json(plan.cues)}};
+        for (std::size_t i = part.first; i < part.end; ++i) {
+            const std::string place = "drones/" + drone_name(i + 1, plan.drones()) + "/";
+            entries.push_back({place + "trajectory.json", std::move((*trajectories)[i - part.first])});
+            entries.push_back({place + "lights.json", lights_json(plan, i)});
+        }
+        if (run.stopped()) return stopped_error();
+        files.push_back(file_of(part));
+        if (const Status written = write_zip(folder / files.back(), entries); !written) return written.error();
     }
-    if (run.stopped()) return stopped_error();
-    if (const Status written = write_zip(folder / kFile, entries); !written) return written.error();
-    return std::vector<std::string>{kFile};
+    return files;
 }
 
 bool recognises(std::string_view path, std::string_view first_bytes) {

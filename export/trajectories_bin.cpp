@@ -46,6 +46,9 @@ class PayloadWriter {
             time(keyframe.stands_from_ms);
             time(keyframe.stands_to_ms);
         }
+        if (auto plane = plan.limits.plane) {
+            for (const double* value : trajectories::plane_fields(*plane)) put(out_, *value);
+        }
     }
 
   private:
@@ -214,7 +217,8 @@ std::string trajectories_bytes(const planner::FlightPlan& plan, const Seal& seal
     std::string header(kMagic);
     put(header, kVersion);
     put(header, static_cast<std::uint32_t>(scalar_bytes));
-    put(header, std::uint32_t{seal.certified ? 1U : 0U});
+    put(header,
+        (seal.certified ? trajectories::kCertifiedFlag : 0U) | (plan.limits.plane ? trajectories::kPlanesFlag : 0U));
     put(header, static_cast<std::uint32_t>(kHeaderBytes));
     put(header, std::uint64_t{payload.size()});
     append_digest(header, seal.show_hash);

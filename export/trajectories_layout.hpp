@@ -30,4 +30,10 @@ inline std::array<double*, 11> limit_fields(Limits& l) {
             &l.ceiling_m};
 }
 
+/// The block at the payload's end, there when the header's flag says that the vehicles are planes.
+inline constexpr std::uint32_t kCertifiedFlag = 1, kPlanesFlag = 2;
+inline std::array<double*, 5> plane_fields(PlaneLimits& p) {
+    return {&p.airspeed_min_mps, &p.airspeed_max_mps, &p.turn_rate_dps, &p.climb_mps, &p.sink_mps};
+}
+
 }  // namespace aerogram::exporter::trajectories

@@ -16,7 +16,7 @@ using namespace trajectories;
 
 struct Header {
     std::size_t scalar_bytes = 0;
-    bool certified = false;
+    bool certified = false, planes = false;
     std::string show_hash;
     std::uint32_t payload_crc = 0;
 };
@@ -45,8 +45,9 @@ Result<Header> read_header(std::string_view file) {
     header.scalar_bytes = in.number<std::uint32_t>();
     if (header.scalar_bytes != 8 && header.scalar_bytes != 4) in.complain("scalars must have 8 or 4 bytes", 4);
     const auto flags = in.number<std::uint32_t>();
-    if (flags > 1) in.complain("unknown flags", 4);
-    header.certified = flags == 1;
+    if ((flags & ~(kCertifiedFlag | kPlanesFlag)) != 0) in.complain("unknown flags", 4);
+    header.certified = (flags & kCertifiedFlag) != 0;
+    header.planes = (flags & kPlanesFlag) != 0;
     if (in.number<std::uint32_t>() != kHeaderBytes) in.complain("the header must have 72 bytes", 4);
     if (in.number<std::uint64_t>() + kHeaderBytes != file.size()) in.complain("the file has not the stated length", 8);
     header.show_hash = hex(in.bytes(32));
@@ -164,7 +165,15 @@ void read_names(PayloadCursor& in, RecordedShow& show) {
     }
 }
 
-Result<RecordedShow> read_payload(std::string_view payload, std::size_t scalar_bytes) {
+void read_plane_limits(PayloadCursor& in, RecordedShow& show) {
+    PlaneLimits& plane = show.limits->plane.emplace();
+    for (double* value : plane_fields(plane)) {
+        *value = in.real();
+        if (*value < 0.0) in.complain("a limit below 0", 8);
+    }
+}
+
+Result<RecordedShow> read_payload(std::string_view payload, std::size_t scalar_bytes, bool planes) {
     PayloadCursor in(payload, kHeaderBytes, scalar_bytes);
     RecordedShow show;
     show.format = "trajectories";
@@ -178,6 +187,7 @@ Result<RecordedShow> read_payload(std::string_view payload, std::size_t scalar_b
     const std::vector<StoredAct> acts = read_acts(in, drones);
     for (RecordedDrone& drone : show.drones) drone.tracks = read_tracks(in);
     read_names(in, show);
+    if (planes) read_plane_limits(in, show);
     if (in.left() != 0) in.complain("bytes left over");
     if (!in.ok()) return damaged(in.problem());
     const std::string problem = add_pieces(acts, scalar_bytes, show.drones);
@@ -197,7 +207,7 @@ Result<RecordedShow> read_trajectories(std::string_view bytes) {
     if (header->scalar_bytes == 8 && sha256_hex(payload) != header->show_hash) {
         return damaged("byte 32: the show hash is not that of the payload");
     }
-    Result<RecordedShow> show = read_payload(payload, header->scalar_bytes);
+    Result<RecordedShow> show = read_payload(payload, header->scalar_bytes, header->planes);
     if (!show) return show;
     show->show_hash = header->show_hash;
     show->certified = header->certified;

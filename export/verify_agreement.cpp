@@ -66,7 +66,7 @@ bool equal(const Limits& a, const Limits& b) {
                               &Limits::jerk_mps3,
                               &Limits::min_navigation_altitude_m,
                               &Limits::ceiling_m};
-    return std::ranges::all_of(kAll, [&](const auto limit) { return a.*limit == b.*limit; });
+    return a.plane == b.plane && std::ranges::all_of(kAll, [&](const auto limit) { return a.*limit == b.*limit; });
 }
 bool equal(const Rounding& a, const Rounding& b) {
     return a.position_m == b.position_m && a.fit_m == b.fit_m && a.time_s == b.time_s && a.has_speed == b.has_speed &&

@@ -2,9 +2,11 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 
 #include "export/verify/claims.hpp"
 #include "export/verify/judge.hpp"
+#include "export/verify/rules_plane.hpp"
 #include "export/verify_agreement.hpp"
 
 namespace aerogram::exporter {
@@ -39,6 +41,7 @@ Claims claims_of(const CertifiedAct& act) {
     claims.geofence_margin_m = act.geofence_margin_m;
     claims.audience_margin_m = act.audience_margin_m;
     claims.obstacle_margin_m = act.obstacle_margin_m;
+    if (act.plane) claims.plane = {act.plane->airspeed_min_mps, act.plane->airspeed_max_mps, act.plane->turn_rate_dps};
     return claims;
 }
 
@@ -68,8 +71,13 @@ Result<Problems> problems_of_act(const CertifiedAct& act, const RecordedShow& tr
         problems.push_back("requires a separation of " + shown(act.required_separation_m) + " m; the limits require " +
                            shown(planned_separation_m(rules.limits)));
     }
+    if (act.plane.has_value() != rules.limits.plane.has_value())
+        problems.push_back("does not say what planes do, or says it of copters");
     if (std::string wrong = wrong_encounter(act, trajectories, rules); !wrong.empty()) problems.push_back(wrong);
-    for (const BrokenClaim& broken : broken_claims(trajectories, rules, claims_of(act), run)) {
+    const Claims claims = claims_of(act);
+    std::vector<BrokenClaim> all_broken = broken_claims(trajectories, rules, claims, run);
+    std::ranges::copy(broken_plane_claims(trajectories, rules, claims, run), std::back_inserter(all_broken));
+    for (const BrokenClaim& broken : all_broken) {
         problems.push_back("claims " + broken.what + " = " + shown(broken.claimed) + "; drone " +
                            std::to_string(broken.drone + 1) + " has " + shown(broken.found) + " at " +
                            shown(broken.time_s) + " s");

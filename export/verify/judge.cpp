@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "export/verify/rules.hpp"
+#include "export/verify/rules_plane.hpp"
 #include "export/verify/waypoint_legs.hpp"
 
 namespace aerogram::exporter {
@@ -80,6 +81,7 @@ Result<Judgement> judge(const RecordedShow& show, const JudgeAgainst& against, c
     if (const Status sound = well_formed(show); !sound) return sound.error();
     if (const Status done = judge_separation(show, rules, against, run, judgement); !done) return done.error();
     append(judgement.findings, motion_findings(show, rules, run));
+    append(judgement.findings, plane_findings(show, rules, run));
     append(judgement.findings, altitude_findings(show, rules, run));
     append(judgement.findings, airspace_findings(show, rules, run));
     append(judgement.findings, ground_findings(show, rules));

@@ -50,10 +50,11 @@ struct JudgeAgainst {
 /// show states; without them z = 0 is the ground. Waypoints without times are judged by their places only. The rules:
 ///  - separation, m, at least;
 ///  - speed_horizontal, speed_up, speed_down, m/s; acceleration, m/s²;
-///  - velocity_jump, m/s: where pieces meet, and at the ends, where a drone must be at rest; position_jump, m;
+///  - of planes, in the place of the three speeds: airspeed_min, airspeed_max, climb, sink, m/s; turn_rate_dps;
+///  - velocity_jump, m/s: where pieces meet, and at the ends, where a copter must be at rest; position_jump, m;
 ///  - altitude_max, m above own home; altitude_min_navigation, horizontal metres flown in one stay below that altitude;
 ///  - geofence, audience, obstacles: margin, m, at least;
-///  - pads, m: from home at the start, from the landing place at the end; endurance, s.
+///  - pads, m, of copters: from home at the start, from the landing place at the end; endurance, s.
 ///
 /// Properties: (1) each worst value is the true one to 1e-6 (separation 1e-5, obstacles 1e-4; 1 % of what is beyond a
 /// fence), never on the lenient side (2) threads change nothing. Errors: invalid_input for shows that are not well

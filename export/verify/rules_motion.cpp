@@ -74,8 +74,10 @@ void jump(const Vec3& by, double t_s, Worst& negative) {
     if (above(glm::dot(by, by), negative)) negative.meet(-glm::length(by), t_s);
 }
 
-void look_at_drone(const RecordedDrone& drone, MotionWorst& worst) {
+/// @param rests  the drone must be at rest at the show's ends.
+void look_at_drone(const RecordedDrone& drone, bool rests, MotionWorst& worst) {
     Vec3 position = first_position(drone), velocity{0.0, 0.0, 0.0};
+    if (!rests) velocity = velocity_at(drone, drone.pieces.front().start_s);
     for (const Piece& piece : drone.pieces) {
         const std::span<const Vec3> controls = controls_of(drone, piece);
         const Reach reach = reach_of(controls, piece.duration_s);
@@ -87,7 +89,7 @@ void look_at_drone(const RecordedDrone& drone, MotionWorst& worst) {
         velocity = reach.last_mps;
         position = controls.back();
     }
-    jump(velocity, end_s(drone), worst[velocity_jump]);
+    if (rests) jump(velocity, end_s(drone), worst[velocity_jump]);
 }
 
 }  // namespace
@@ -102,7 +104,7 @@ std::vector<Finding> motion_findings(const RecordedShow& show, const Rules& rule
         Part& part = each[p];
         for (std::size_t d = p * kDronesAPart; d < std::min(show.drones.size(), (p + 1) * kDronesAPart); ++d) {
             const MotionWorst before = part.worst;
-            look_at_drone(show.drones[d], part.worst);
+            look_at_drone(show.drones[d], !rules.limits.plane, part.worst);
             for (std::size_t q = 0; q < quantity_count; ++q)
                 if (part.worst[q].attained < before[q].attained) part.drone[q] = d;
         }
@@ -119,7 +121,7 @@ std::vector<Finding> motion_findings(const RecordedShow& show, const Rules& rule
         for (Finding& finding : at_most(std::move(rule), limit, allowance, fleet[quantity]))
             found.push_back(std::move(finding));
     };
-    if (rounding.has_speed) {
+    if (rounding.has_speed && !rules.limits.plane) {
         add("speed_horizontal", rules.limits.speed_horizontal_mps, rounding.speed_allowance_mps, horizontal);
         add("speed_up", rules.limits.speed_up_mps, rounding.speed_allowance_mps, up);
         add("speed_down", rules.limits.speed_down_mps, rounding.speed_allowance_mps, down);

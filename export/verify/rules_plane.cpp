@@ -98,9 +98,10 @@ PlaneWorst look_at_drone(const RecordedDrone& drone, double begin_s, double end_
             on, Tolerance{}, [of](const Vec3& v) { return -of(v); },
             [of](const Bezier& curve) { return -largest(curve, of); }, negative);
     };
-    for_each_piece(drone, [&](const Timed& on) {
+    for (const Piece& piece : drone.pieces) {
+        const Timed on{curve_of(drone, piece), piece.start_s, piece.start_s + piece.duration_s};
         const double middle_s = 0.5 * (on.begin_s + on.end_s);
-        if (middle_s < begin_s || middle_s > end_s) return;
+        if (middle_s < begin_s || middle_s > end_s) continue;
         const Timed velocity = rate(on);
         minimise(
             velocity, Tolerance{}, airspeed, [](const Bezier& curve) { return least_length(curve, false); },
@@ -109,7 +110,7 @@ PlaneWorst look_at_drone(const RecordedDrone& drone, double begin_s, double end_
         maximise(velocity, upwards, worst[climb]);
         maximise(velocity, downwards, worst[sink]);
         if (turns) search_turn(velocity, kTurnHalvings, worst[turn]);
-    });
+    }
     return worst;
 }
 

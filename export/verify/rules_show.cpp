@@ -68,7 +68,8 @@ std::vector<Finding> ground_findings(const RecordedShow& show, const Rules& rule
         if (worst.bound < pads.worst.bound) pads = {worst, d};
         longest_s = std::max(longest_s, end_s(drone));
     }
-    std::vector<Finding> found = at_most("pads", 0.0, 2.0 * rules.space_m(), pads);
+    std::vector<Finding> found;  // the show of planes begins and ends in flight
+    if (!rules.limits.plane) found = at_most("pads", 0.0, 2.0 * rules.space_m(), pads);
     if (rules.endurance_s && show.timed) {
         found.push_back({"endurance",
                          *rules.endurance_s,
