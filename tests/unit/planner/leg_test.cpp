@@ -55,10 +55,10 @@ TEST(LegsOf, AFlowIsOnlyPairwiseWhenEveryMatchingIs) {
     EXPECT_FALSE(legs_of(mission, route)[2].pairwise);
 }
 
-/// Pads 1.2 m apart with 1.55 m to keep: drones of a row's neighbours leave one after the other.
+/// Pads 1 m apart with 1.55 m to keep: drones of a row's neighbours leave one after the other.
 TEST(LegsOf, TightPadsAreLeftAndTakenInWaves) {
     Mission mission = show_of(keyframe("a", "circle"));
-    for (Vec3& p : mission.fleet.pads_m) p *= 1.2 / 3.0;
+    for (Vec3& p : mission.fleet.pads_m) p *= 1.0 / 3.0;
     const Route route = build_route(mission, aerogram::Run{}).value();
     EXPECT_EQ(route.layers.count, 4u);
     const std::vector<Leg> legs = legs_of(mission, route);
