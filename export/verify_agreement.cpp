@@ -202,7 +202,8 @@ Problems disagreement_of_shows(const RecordedShow& reference, const RecordedShow
     const auto times = static_cast<std::size_t>(
         std::clamp(std::min(length_s / kSampleEvery_s, kMostSamples / fleet), kFewestTimes, kMostSamples));
     const double fastest_mps =
-        std::hypot(limits.speed_horizontal_mps, std::max(limits.speed_up_mps, limits.speed_down_mps));
+        limits.plane ? limits.plane->airspeed_max_mps
+                     : std::hypot(limits.speed_horizontal_mps, std::max(limits.speed_up_mps, limits.speed_down_mps));
     const double allowed_m = space_m(reference.rounding) + space_m(show.rounding) + kNumeric +
                              (reference.rounding.time_s + show.rounding.time_s) * fastest_mps;
     double worst_m = 0.0, worst_s = 0.0;

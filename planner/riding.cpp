@@ -138,7 +138,10 @@ Result<Flown> plan_riding(const Mission& mission, const Run& run) {
                                      [&](std::size_t l) { return plan_leg(*placed, *route, flown.legs[l], quiet); });
     if (!motions) return motions.error();
     round_times(mission, *motions);
-    for (const LegMotion& motion : *motions) flown.reports.push_back(motion.report);
+    for (std::size_t l = 0; l < motions->size(); ++l) {
+        flown.reports.push_back((*motions)[l].report);
+        flown.reports.back().required_separation_m = required_separation_m(mission, flown.legs[l]);
+    }
     const auto ridden = ride_timeline(mission, *placed, *route, flown.legs, std::move(*motions), run, flown.timeline);
     if (!ridden) return ridden.error();
     carry_keyframes(*ridden, ridden->acts.front().start_ms, flown.timeline.keyframes);

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <iostream>
+#include <limits>
 #include <sstream>
 
 #include "export/export_show.hpp"
@@ -38,6 +39,19 @@ std::string separation_line(const FlightPlan& plan) {
     return line + "\n";
 }
 
+std::string plane_line(const FlightPlan& plan, const PlaneLimits& l) {
+    double slowest_mps = std::numeric_limits<double>::infinity(), fastest_mps = 0.0, turn_dps = 0.0;
+    for (const ActCertificate& act : plan.certificate.acts) {
+        if (!act.plane) continue;
+        slowest_mps = std::min(slowest_mps, act.plane->airspeed_min_mps.value);
+        fastest_mps = std::max(fastest_mps, act.plane->airspeed_max_mps.value);
+        turn_dps = std::max(turn_dps, act.plane->turn_rate_dps.value);
+    }
+    return "airspeeds      " + decimals(slowest_mps, 2) + " to " + decimals(fastest_mps, 2) + " m/s (limits " +
+           decimals(l.airspeed_min_mps, 2) + " to " + decimals(l.airspeed_max_mps, 2) + "), turns " +
+           decimals(turn_dps, 2) + " of " + decimals(l.turn_rate_dps, 2) + " degrees a second\n";
+}
+
 std::string limits_lines(const FlightPlan& plan) {
     planner::Extremes most;
     double highest_m = 0.0;
@@ -54,9 +68,13 @@ std::string limits_lines(const FlightPlan& plan) {
     }
     const Limits& l = plan.limits;
     const auto of = [](double value, double limit) { return decimals(value, 2) + " of " + decimals(limit, 2); };
-    return "speeds         horizontal " + of(most.speed_horizontal_mps, l.speed_horizontal_mps) + ", up " +
-           of(most.speed_up_mps, l.speed_up_mps) + ", down " + of(most.speed_down_mps, l.speed_down_mps) + " m/s\n" +
-           "acceleration   " + of(most.acceleration_mps2, l.acceleration_mps2) + " m/s², jerk " +
+    const std::string speeds =
+        l.plane ? plane_line(plan, *l.plane) + "speeds         up " + of(most.speed_up_mps, l.plane->climb_mps) +
+                      ", down " + of(most.speed_down_mps, l.plane->sink_mps) + " m/s\n"
+                : "speeds         horizontal " + of(most.speed_horizontal_mps, l.speed_horizontal_mps) + ", up " +
+                      of(most.speed_up_mps, l.speed_up_mps) + ", down " + of(most.speed_down_mps, l.speed_down_mps) +
+                      " m/s\n";
+    return speeds + "acceleration   " + of(most.acceleration_mps2, l.acceleration_mps2) + " m/s², jerk " +
            of(most.jerk_mps3, l.jerk_mps3) + " m/s³\n" + "altitude       up to " + of(highest_m, l.ceiling_m) + " m" +
            (fence_m ? ", " + decimals(*fence_m, 1) + " m inside the geofence" : std::string()) + "\n";
 }
