@@ -191,7 +191,7 @@ TEST(BoundSeparation, Property1And2_LatticesInBlocksOfEveryLengthBracketADenseSa
 /// In a fleet that hardly moves, and so is taken in long blocks, one drone darts towards another and back.
 TEST(BoundSeparation, AShortApproachInsideALongBlockIsFound) {
     Random random(58);
-    for (int round = 0; round < 20; ++round) {
+    for (int round = 0; round < 12; ++round) {
         const Points sheet = grid(7, 6.0);
         const std::size_t intervals = 130, n = sheet.size();
         const std::size_t darting = 7 * random.below(7) + random.below(6), other = darting + 1,
@@ -206,7 +206,7 @@ TEST(BoundSeparation, AShortApproachInsideALongBlockIsFound) {
                                            0.01 * static_cast<double>(k) * Vec3{1, 1, 0});
             }
         }
-        const double least_m = sampled_m(lattice, {}, 20);
+        const double least_m = sampled_m(lattice, {}, 10);
         ASSERT_LT(least_m, 4.0);
         const auto bound = bound_separation(lattice, 1.0, {}, 12.0, {}).value();
         EXPECT_LE(bound.lower_bound_m, least_m);
