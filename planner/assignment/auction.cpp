@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "geo/contract.hpp"
+#include "planner/assignment/alike.hpp"
 #include "planner/assignment/matching.hpp"
 #include "planner/assignment/price_leaves.hpp"
 
@@ -18,23 +19,87 @@ constexpr std::size_t kCoarsenFrom = 1000;
 constexpr std::uint32_t kCell = 8;
 constexpr double kCoarseLastEpsilon = 0.1, kFineFirstEpsilon = 1.0;
 
+/// Targets that are alike to every bidder are copies of one thing: bidders want the cheapest copy, whose price is the
+/// thing's, and outbid the second-best thing, not the next copy. (Bertsekas and Castañon 1989: similar objects.)
+class Copies {
+  public:
+    struct Copy {
+        double price;
+        std::uint32_t target, owner;
+    };
+
+    explicit Copies(const Classes& things) : begin_(things.begin), copies_(things.members.size()) {
+        for (std::size_t k = 0; k < copies_.size(); ++k) copies_[k] = {0.0, things.members[k], kNobody};
+    }
+    /// All free, at their thing's price.
+    void set_free(std::size_t thing, double price) {
+        for (std::uint32_t k = begin_[thing]; k < begin_[thing + 1]; ++k) {
+            copies_[k].price = price;
+            copies_[k].owner = kNobody;
+        }
+    }
+    /// The bidder gets the cheapest copy at a new price. @returns the owner until now.
+    std::uint32_t sell(std::size_t thing, double price, std::uint32_t bidder) {
+        Copy sold = copies_[begin_[thing]];
+        const std::uint32_t before = sold.owner;
+        sold.price = price;
+        sold.owner = bidder;
+        const std::size_t count = begin_[thing + 1] - begin_[thing];
+        Copy* heap = copies_.data() + begin_[thing];
+        std::size_t at = 0;
+        for (std::size_t child = 1; child < count; child = 2 * at + 1) {
+            if (child + 1 < count && heap[child + 1].price < heap[child].price) ++child;
+            if (!(heap[child].price < price)) break;
+            heap[at] = heap[child];
+            at = child;
+        }
+        heap[at] = sold;
+        return before;
+    }
+    /// Of the cheapest copy.
+    [[nodiscard]] double price(std::size_t thing) const { return copies_[begin_[thing]].price; }
+    [[nodiscard]] std::size_t things() const { return begin_.size() - 1; }
+    [[nodiscard]] std::span<const Copy> of(std::size_t thing) const {
+        return {copies_.data() + begin_[thing], copies_.data() + begin_[thing + 1]};
+    }
+
+  private:
+    std::vector<std::uint32_t> begin_;  ///< by thing: where its copies begin, a heap with the cheapest on top
+    std::vector<Copy> copies_;
+};
+
+/// Limits tell copies apart.
+Classes things_of(const Coordinates& bidders, const Coordinates& targets, const Allowed& allowed) {
+    if (allowed.everything()) return classes_of(seen_by(bidders, targets));
+    Classes each;
+    for (std::uint32_t j = 0; j < targets.size(); ++j) {
+        each.members.push_back(j);
+        each.begin.push_back(j);
+    }
+    each.begin.push_back(static_cast<std::uint32_t>(targets.size()));
+    return each;
+}
+Coordinates one_of_each(const Classes& things, const Coordinates& targets) {
+    Coordinates points(things.size());
+    for (std::size_t t = 0; t < things.size(); ++t) points.set(t, targets[things.of(t)[0]]);
+    return points;
+}
+std::vector<double> one_of_each(const Classes& things, const std::vector<double>& price) {
+    std::vector<double> prices;
+    for (std::size_t t = 0; !price.empty() && t < things.size(); ++t) prices.push_back(price[things.of(t)[0]]);
+    return prices;
+}
+
 class Auction {
   public:
-    Auction(const Coordinates& bidders, const Coordinates& targets, std::span<const double> price, const Run& run,
+    Auction(const Coordinates& bidders, const Coordinates& targets, const std::vector<double>& price, const Run& run,
             const Allowed& allowed)
-        : bidders_(bidders),
-          targets_(targets),
-          leaves_(targets, price, weights_by_spread(bidders)),
-          order_(kd_order(bidders)),
-          owner_(targets.size()),
-          last_(bidders.size()),
-          most_(value_range_m2(bidders, targets)),
-          run_(run),
-          allowed_(allowed) {}
+        : Auction(bidders, targets, things_of(bidders, targets, allowed), price, run, allowed) {}
 
     /// Everybody bids until everybody has a target whose value is within epsilon of the best. False when stopped.
     bool phase(double epsilon) {
-        owner_.assign(owner_.size(), kNobody);
+        for (std::uint32_t place = 0; place < copies_.things(); ++place)
+            copies_.set_free(leaves_.index_at(place), leaves_.price(place));
         for (const std::uint32_t first : order_)
             for (std::uint32_t bidder = first; bidder != kNobody;) {
                 if (++bids_ % kBidsPerStopCheck == 0 && run_.stopped()) return false;
@@ -42,35 +107,41 @@ class Auction {
                 AEROGRAM_REQUIRE(std::isfinite(offer.value), bidder);
                 // A bidder without a second choice raises as far as values lie apart, not for ever.
                 const double ahead = std::min(offer.value - offer.second, most_);
-                leaves_.raise(offer.place, leaves_.price(offer.place) + ahead + epsilon);
+                const std::uint32_t thing = leaves_.index_at(offer.place);
                 last_[bidder] = offer.place;
-                std::swap(bidder, owner_[offer.place]);
+                bidder = copies_.sell(thing, leaves_.price(offer.place) + ahead + epsilon, bidder);
+                if (const double price = copies_.price(thing); price > leaves_.price(offer.place))
+                    leaves_.raise(offer.place, price);
             }
         return true;
     }
 
     [[nodiscard]] Matching result() const {
-        Matching matching{std::vector<std::uint32_t>(owner_.size()), std::vector<double>(owner_.size())};
-        for (std::uint32_t place = 0; place < owner_.size(); ++place) {
-            matching.target_of[owner_[place]] = leaves_.index_at(place);
-            matching.price[leaves_.index_at(place)] = leaves_.price(place);
-        }
+        Matching matching{std::vector<std::uint32_t>(bidders_.size()), std::vector<double>(bidders_.size())};
+        for (std::size_t thing = 0; thing < copies_.things(); ++thing)
+            for (const Copies::Copy& copy : copies_.of(thing)) {
+                matching.target_of[copy.owner] = copy.target;
+                matching.price[copy.target] = copies_.price(thing);
+            }
         return matching;
-    }
-    /// The squared cost now, m².
-    [[nodiscard]] double cost_m2() const {
-        double sum = 0.0;
-        for (std::uint32_t place = 0; place < owner_.size(); ++place) {
-            const Vec3 flight = targets_[leaves_.index_at(place)] - bidders_[owner_[place]];
-            sum += glm::dot(flight, flight);
-        }
-        return sum;
     }
 
   private:
-    const Coordinates &bidders_, &targets_;
-    PriceLeaves leaves_;
-    std::vector<std::uint32_t> order_, owner_, last_;
+    Auction(const Coordinates& bidders, const Coordinates& targets, const Classes& things,
+            const std::vector<double>& price, const Run& run, const Allowed& allowed)
+        : bidders_(bidders),
+          copies_(things),
+          leaves_(one_of_each(things, targets), one_of_each(things, price), weights_by_spread(bidders)),
+          order_(kd_order(bidders)),
+          last_(bidders.size()),
+          most_(value_range_m2(bidders, targets)),
+          run_(run),
+          allowed_(allowed) {}
+
+    const Coordinates& bidders_;
+    Copies copies_;
+    PriceLeaves leaves_;  ///< of things
+    std::vector<std::uint32_t> order_, last_;
     double most_;
     const Run& run_;
     const Allowed& allowed_;
@@ -141,7 +212,8 @@ std::optional<Matching> solve(const Coordinates& bidders, const Coordinates& tar
     for (double epsilon = first;; epsilon = std::max(epsilon / kEpsilonFactor, last)) {
         if (!auction.phase(epsilon)) return std::nullopt;
         if (end.enough_gap > 0.0) {
-            const double gap_m2 = end.enough_gap * gap_scale_m2(bidders, targets, auction.cost_m2());
+            const double gap_m2 =
+                end.enough_gap * gap_scale_m2(bidders, targets, cost_m2(bidders, targets, auction.result().target_of));
             last = std::max(end.last_epsilon, gap_m2 / static_cast<double>(bidders.size()));
         }
         if (epsilon <= last) return auction.result();

@@ -1,14 +1,14 @@
 #include "planner/assignment/crossing.hpp"
 
 #include <algorithm>
-#include <functional>
 
+#include "planner/assignment/alike.hpp"
 #include "planner/assignment/assignment.hpp"
 
 namespace aerogram::planner {
 namespace {
 
-constexpr int kRoundsOfTies = 16;
+constexpr int kRoundsOfTies = 16, kRoundsOfSorting = 200;
 
 /// Changes slots of pairs until a look at every pair finds nothing to change. Only pairs of blocks are looked at again
 /// of which one has changed since.
@@ -66,10 +66,43 @@ class Swapper {
     std::size_t swaps_ = 0;
 };
 
+/// Sorts what the members of each class hold; whether that changed anything.
+bool sort_within(const Classes& classes, std::vector<std::uint32_t>& held) {
+    bool changed = false;
+    std::vector<std::uint32_t> values;
+    for (std::size_t c = 0; c < classes.size(); ++c) {
+        const std::span<const std::uint32_t> members = classes.of(c);
+        values.clear();
+        for (const std::uint32_t i : members) values.push_back(held[i]);
+        if (std::is_sorted(values.begin(), values.end())) continue;
+        std::sort(values.begin(), values.end());
+        for (std::size_t k = 0; k < members.size(); ++k) held[members[k]] = values[k];
+        changed = true;
+    }
+    return changed;
+}
+
+/// Ties by the formations' shape (pads under upright letters: a whole row of either is alike to the other), all at
+/// once; one pair after the other they would take long.
+void sort_alike(const Coordinates& from, const Coordinates& to, std::vector<SlotId>& slot_of) {
+    const Classes drone_classes = classes_of(seen_by(to, from)), slot_classes = classes_of(seen_by(from, to));
+    std::vector<std::uint32_t> slots, drones(slot_of.size());
+    for (const SlotId s : slot_of) slots.push_back(s.value);
+    bool changed = true;
+    for (int round = 0; changed && round < kRoundsOfSorting; ++round) {
+        changed = sort_within(drone_classes, slots);
+        for (std::uint32_t d = 0; d < slots.size(); ++d) drones[slots[d]] = d;
+        changed = sort_within(slot_classes, drones) || changed;
+        for (std::uint32_t s = 0; s < drones.size(); ++s) slots[drones[s]] = s;
+    }
+    for (std::uint32_t d = 0; d < slots.size(); ++d) slot_of[d] = SlotId(slots[d]);
+}
+
 }  // namespace
 
 bool uncross(std::span<const Vec3> from_m, std::span<const Vec3> to_m, std::vector<SlotId>& slot_of,
              const SeparationMetric& metric, const Run& run, const MaySwap& may_swap) {
+    if (!may_swap) sort_alike(centred(from_m, metric), centred(to_m, metric), slot_of);
     Flights flights(from_m, to_m, slot_of, metric);
     return Swapper(flights, slot_of, may_swap).run(run);
 }
