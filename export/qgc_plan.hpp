@@ -12,8 +12,8 @@ namespace aerogram::exporter {
 /// certificate and the word that timing is none: separation is not claimed. Colours, yaw, events and times are lost.
 [[nodiscard]] const Format& qgc_plan_format();
 
-/// Format::read of qgc_plan_format(). Reads other programs' plans of simple items; commands that move nobody are skipped.
-/// Errors: invalid_input with file and key.
+/// Format::read of qgc_plan_format(). Reads other programs' plans of simple items; commands that move nobody are
+/// skipped. Errors: invalid_input with file and key.
 Result<RecordedShow> read_qgc_plan(std::span<const FileBytes> files);
 
 }  // namespace aerogram::exporter

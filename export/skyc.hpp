@@ -1,10 +1,11 @@
 #pragma once
 #include "export/format.hpp"
 
-/// `show.skyc`: a Skybrush compiled show (FORMATS.md 1, docs/formats/skyc.md).
+/// `show.skyc`: a Skybrush compiled show (FORMATS.md 1, docs/formats/skyc.md). A fleet of more than kSkycDrones leaves
+/// as `show-1.skyc`, `show-2.skyc`, ... of near-equal size in drone order, with one origin, clock and show hash.
 namespace aerogram::exporter {
 
-inline constexpr std::size_t kSkycDrones = 5000;
+inline constexpr std::size_t kSkycDrones = 5000;  ///< in one file
 
 /// Stated accuracy of the curve writer: 3 decimals, and a refit within fit_bound (export/curve_fit.hpp), or the plan is
 /// refused. On a Bézier piece of T seconds a control point that is off by e a component moves velocity by 2 d e / T and
@@ -19,7 +20,8 @@ inline constexpr std::size_t kSkycDrones = 5000;
 [[nodiscard]] const Format& skyc_format();
 
 /// Format::read of skyc_format(). Reads other programs' shows: values inline or by $ref (any depth up to 16, local or
-/// in another .json of the archive), linear to cubic pieces, missing optional parts; versions must be 1.
+/// in another .json of the archive), linear to cubic pieces, missing optional parts; versions must be 1. Several files
+/// must be successive parts of one show; one part alone is read as the drones it holds.
 /// Errors: invalid_input naming archive, entry and key.
 Result<RecordedShow> read_skyc(std::span<const FileBytes> files);
 

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
+#include <tuple>
 
 #include "export/base64.hpp"
 #include "export/curve_fit.hpp"
@@ -20,6 +22,7 @@ constexpr double kLongest_s = 86'400.0;
 constexpr double kAny = 1e6;
 constexpr std::size_t kMostLightKeys = 10'000'000;
 constexpr double kHalfMillimetre_m = 0.0005;
+constexpr std::int64_t kMostParts = 1000;
 
 Millis millis(double time_s) {
     return std::llround(time_s * 1000.0);
@@ -29,11 +32,17 @@ void check_version(const JsonNode& node) {
     static_cast<void>(node["version"].whole(1, 1));
 }
 
+/// One file, and which of a fleet's files it is, from 1.
+struct SkycPart {
+    RecordedShow show;
+    std::int64_t number = 1, parts = 1;
+};
+
 class Reader {
   public:
     explicit Reader(SkycArchive& archive) : archive_(archive) {}
 
-    Result<RecordedShow> read() {
+    Result<SkycPart> read() {
         const JsonNode root = archive_.resolved(archive_.document("show.json"));
         check_version(root);
         show_.format = "skyc";
@@ -46,7 +55,7 @@ class Reader {
             read_drone(archive_.resolved(drones.at(i)));
         if (problem().found()) return problem().error();
         state_rounding();
-        return std::move(show_);
+        return SkycPart{std::move(show_), part_, parts_};
     }
 
   private:
@@ -68,6 +77,10 @@ class Reader {
         if (show_.title.starts_with(kUncertifiedTitle)) show_.title.erase(0, kUncertifiedTitle.size());
         if (show_.title.ends_with(kNoLocationTitle)) show_.title.erase(show_.title.size() - kNoLocationTitle.size());
         if (const auto undulation = own->find("geoidUndulation")) undulation_m_ = undulation->number(-200.0, 200.0);
+        if (const auto part = own->find("part")) {
+            part_ = part->at(0).whole(1, kMostParts);
+            parts_ = part->at(1).whole(part_, kMostParts);
+        }
         Limits limits;
         limits.downwash = (*own)["downwash"].number(1.0, kAny);
         limits.formation_spacing_m = (*own)["formationSpacing"].number(0.0, kAny);
@@ -240,15 +253,60 @@ class Reader {
     RecordedShow show_;
     std::optional<double> undulation_m_;
     std::size_t light_keys_ = 0;
+    std::int64_t part_ = 1, parts_ = 1;
 };
+
+/// Why a file cannot be of the same show as the one before it, or empty.
+std::string other_show(const SkycPart& one, const SkycPart& next) {
+    const RecordedShow &a = one.show, &b = next.show;
+    if (next.parts != one.parts || next.number != one.number + 1)
+        return "is part " + std::to_string(next.number) + " of " + std::to_string(next.parts) + ", after part " +
+               std::to_string(one.number) + " of " + std::to_string(one.parts);
+    if (a.title != b.title || a.show_hash != b.show_hash || a.certified != b.certified)
+        return "is of another show than the part before";
+    const auto place = [](const RecordedShow& show) {
+        const geo::ShowOrigin o = show.origin.value_or(geo::ShowOrigin{});
+        return std::tuple(show.origin.has_value(), o.ground.latitude_deg, o.ground.longitude_deg, o.ground.height_m,
+                          o.heading_deg, o.geoid_undulation_m);
+    };
+    if (place(a) != place(b)) return "has another origin than the part before";
+    if (!std::ranges::equal(a.cues, b.cues)) return "has other cues than the part before";
+    return {};
+}
+
+/// Adds the next part's drones; what rounding may cost is the larger.
+void join(SkycPart& all, SkycPart next) {
+    RecordedShow& show = all.show;
+    std::ranges::move(next.show.drones, std::back_inserter(show.drones));
+    show.duration_s = std::max(show.duration_s, next.show.duration_s);
+    Rounding& r = show.rounding;
+    const Rounding& n = next.show.rounding;
+    r.speed_allowance_mps = std::max(r.speed_allowance_mps, n.speed_allowance_mps);
+    r.acceleration_allowance_mps2 = std::max(r.acceleration_allowance_mps2, n.acceleration_allowance_mps2);
+    r.has_acceleration = r.has_acceleration && n.has_acceleration;
+    all.number = next.number;
+}
+
+Result<SkycPart> read_part(const FileBytes& file) {
+    auto archive = SkycArchive::open(file);
+    if (!archive) return archive.error();
+    return Reader(*archive).read();
+}
 
 }  // namespace
 
 Result<RecordedShow> read_skyc(std::span<const FileBytes> files) {
-    if (files.size() != 1) return Error{ErrorCode::invalid_input, "skyc: needs exactly one file"};
-    auto archive = SkycArchive::open(files.front());
-    if (!archive) return archive.error();
-    return Reader(*archive).read();
+    if (files.empty()) return Error{ErrorCode::invalid_input, "skyc: needs at least one file"};
+    auto all = read_part(files.front());
+    if (!all) return all.error();
+    for (const FileBytes& file : files.subspan(1)) {
+        auto next = read_part(file);
+        if (!next) return next.error();
+        const std::string why = other_show(*all, *next);
+        if (!why.empty()) return Error{ErrorCode::invalid_input, file.path + ": " + why};
+        join(*all, std::move(*next));
+    }
+    return std::move(all->show);
 }
 
 }  // namespace aerogram::exporter

@@ -86,20 +86,22 @@ std::string skyc_misfit(const planner::FlightPlan& plan) {
     return {};
 }
 
-Result<std::vector<std::string>> skyc_trajectories(const planner::FlightPlan& plan, const Run& run) {
+Result<std::vector<std::string>> skyc_trajectories(const planner::FlightPlan& plan, std::size_t first, std::size_t end,
+                                                   const Run& run) {
     const std::vector<ActFitter> fitters = fitters_of(plan);
     const FitError bound = fit_bound(plan.limits);
-    std::vector<std::string> texts(plan.drones()), misfits(plan.drones());
-    parallel_for(plan.drones(), run, "skyc", [&](std::size_t i) {
+    std::vector<std::string> texts(end - first), misfits(end - first);
+    parallel_for(texts.size(), run, "skyc", [&](std::size_t k) {
+        const std::size_t i = first + k;
         const Vec3 start_m = planner::sample(plan, DroneId(i), 0.0).motion.position_m;
         TrajectoryText text(start_m);
         for (std::size_t a = 0; a < fitters.size(); ++a) {
             const Fitted fitted = fitters[a].fit(DroneId(i));
-            if (misfits[i].empty() && !fitted.error.within(bound))
-                misfits[i] = misfit_text(i, plan.acts[a], fitted.error, bound);
+            if (misfits[k].empty() && !fitted.error.within(bound))
+                misfits[k] = misfit_text(i, plan.acts[a], fitted.error, bound);
             for (const FittedPiece& piece : fitted.pieces) text.add(piece);
         }
-        texts[i] = std::move(text).finished(plan.duration_ms());
+        texts[k] = std::move(text).finished(plan.duration_ms());
     });
     if (run.stopped()) return stopped_error();
     for (const std::string& misfit : misfits)

@@ -16,12 +16,24 @@ using exporter::Judgement;
 
 constexpr double kShownAllowance = 5e-4;  // below it prints as 0.000
 
+/// The unit that a rule is judged in.
+std::string unit_of(const std::string& rule) {
+    if (rule == "velocity_jump" || rule.starts_with("speed") || rule.starts_with("airspeed") || rule == "climb" ||
+        rule == "sink")
+        return " m/s";
+    if (rule == "acceleration") return " m/s²";
+    if (rule == "endurance") return " s";
+    if (rule == "turn_rate_dps") return " deg/s";
+    return " m";
+}
+
 std::string finding_line(const Finding& finding) {
+    const std::string unit = unit_of(finding.rule);
     std::ostringstream line;
     line << "    " << (finding.held ? "ok      " : "BROKEN  ") << std::left << std::setw(26) << finding.rule
-         << " worst " << decimals(finding.worst, 3) << ", limit " << decimals(finding.limit, 3);
+         << " worst " << decimals(finding.worst, 3) << unit << ", limit " << decimals(finding.limit, 3) << unit;
     if (finding.allowance >= kShownAllowance)
-        line << " + " << decimals(finding.allowance, 3) << " for the format's rounding";
+        line << " + " << decimals(finding.allowance, 3) << unit << " for the format's rounding";
     if (!finding.drones.empty()) line << ", " << drones_in_words(finding.drones);
     if (finding.time_s) line << " at " << decimals(*finding.time_s, 2) << " s";
     return line.str() + "\n";

@@ -161,11 +161,58 @@ TEST(Skyc, TheAudienceCameraLooksAtTheShow) {
     EXPECT_EQ(p[2], 1.7);
 }
 
-TEST(Skyc, RefusesMoreDronesThanTheFormatHolds) {
+/// More drones than one file holds, each standing on its pad.
+planner::FlightPlan standing_fleet(std::size_t drones) {
     planner::FlightPlan plan = fixed::show();
+    plan.pads_m.clear();
+    for (std::size_t i = 0; i < drones; ++i)
+        plan.pads_m.emplace_back(2.0 * static_cast<double>(i % 100), -2.0 * static_cast<double>(i / 100), 0.0);
+    plan.acts = {{"stand", planner::ActRole::hold, planner::Timing::free, 0, 10'000, planner::Hold{plan.pads_m}}};
+    plan.tracks.assign(drones, {});
+    plan.tracks.back().lights = {{5'000, {1.0, 0.0, 0.0}, false}};
+    plan.keyframes.clear();
+    return plan;
+}
+
+TEST(Skyc, FleetTooLargeForAFileLeavesAsSeveral) {
+    const planner::FlightPlan plan = standing_fleet(5'001);
     EXPECT_EQ(skyc_format().unsuited(plan), "");
-    plan.pads_m.resize(5'001);
-    EXPECT_EQ(skyc_format().unsuited(plan), "5001 drones; at most 5000 fit into one file");
+    const auto files = written_files(skyc_format(), plan);
+    ASSERT_EQ(files.size(), 2U);
+    EXPECT_EQ(files[0].path, "show-1.skyc");
+    EXPECT_EQ(files[1].path, "show-2.skyc");
+
+    const RecordedShow all = read_back(skyc_format(), files);
+    ASSERT_EQ(all.drones.size(), 5'001U);
+    for (std::size_t i = 0; i < all.drones.size(); ++i) {
+        ASSERT_EQ(all.drones[i].name, drone_name(i + 1, 5'001));
+        ASSERT_EQ(all.drones[i].home_m, plan.pads_m[i]);
+    }
+    EXPECT_EQ(all.drones.back().tracks.lights.back().time_ms, 10'000);
+    EXPECT_EQ(all.drones.front().tracks.lights.size(), 1U);
+
+    const RecordedShow first = read_back(skyc_format(), {files[0]}), second = read_back(skyc_format(), {files[1]});
+    EXPECT_EQ(first.drones.size() + second.drones.size(), 5'001U);
+    for (const RecordedShow* part : {&first, &second}) {
+        EXPECT_LE(part->drones.size(), kSkycDrones);
+        EXPECT_EQ(part->origin->ground.latitude_deg, all.origin->ground.latitude_deg);
+        EXPECT_EQ(part->origin->heading_deg, all.origin->heading_deg);
+        EXPECT_EQ(part->show_hash, all.show_hash);
+        EXPECT_EQ(part->cues.size(), plan.cues.size());
+    }
+
+    const auto refused = [&](const std::vector<FileBytes>& wrong) {
+        const auto show = skyc_format().read(wrong);
+        return show.ok() ? std::string() : show.error().message;
+    };
+    EXPECT_EQ(refused({files[1], files[0]}), "show-1.skyc: is part 1 of 2, after part 2 of 2");
+    EXPECT_EQ(refused({files[0], files[0]}), "show-1.skyc: is part 1 of 2, after part 1 of 2");
+    const auto uncertified = written_files(skyc_format(), plan, test_seal(false));
+    EXPECT_EQ(refused({files[0], uncertified[1]}), "show-2.skyc: is of another show than the part before");
+    planner::FlightPlan turned = plan;
+    turned.origin.heading_deg += 7.0;
+    EXPECT_EQ(refused({files[0], written_files(skyc_format(), turned)[1]}),
+              "show-2.skyc: has another origin than the part before");
 }
 
 TEST(Skyc, RefusesAMarginWithoutRoomForMillimetres) {
