@@ -7,6 +7,7 @@
 #include "planner/assignment/assignment.hpp"
 #include "planner/formation/formation.hpp"
 #include "planner/gather.hpp"
+#include "planner/group_match.hpp"
 #include "planner/hold_motion.hpp"
 #include "planner/leg_shape.hpp"
 #include "planner/transition/hierarchy.hpp"
@@ -30,60 +31,6 @@ std::string describe(const char* how, const Assignment& assignment) {
     return text.str();
 }
 
-/// The groups matched as wholes at a keyframe: those that its arrival names, else all; of nested ones the outermost.
-std::vector<std::size_t> whole_groups(const Route& route, const Arrive& arrive) {
-    std::vector<std::size_t> named;
-    for (const GroupMove& move : arrive.groups) named.push_back(move.group);
-    if (named.empty())
-        for (std::size_t g = 0; g < route.groups.size(); ++g) named.push_back(g);
-    std::vector<std::size_t> outermost;
-    for (const std::size_t g : named) {
-        const auto& drones = route.groups[g].drones;
-        const auto holds_it = [&](std::size_t other) {
-            const auto& theirs = route.groups[other].drones;
-            return other != g && theirs.size() > drones.size() && std::ranges::includes(theirs, drones);
-        };
-        if (!drones.empty() && std::ranges::none_of(named, holds_it)) outermost.push_back(g);
-    }
-    return outermost;
-}
-
-/// The mission's groups, and the drones outside all of them as one more, against the keyframe's parts: those of one
-/// group together, each other part by itself.
-GroupMatch match_groups(const Mission& mission, const Route& route, const Keyframe& keyframe,
-                        const Formation& formation) {
-    GroupMatch match;
-    std::vector<bool> grouped(mission.fleet.drones, false);
-    const std::vector<std::size_t> wholes = whole_groups(route, keyframe.arrive);
-    for (const std::size_t g : wholes) {
-        match.drones.push_back(route.groups[g].drones);
-        for (const DroneId drone : route.groups[g].drones) grouped[drone.value] = true;
-    }
-    std::vector<DroneId> rest;
-    for (std::size_t d = 0; d < grouped.size(); ++d) {
-        if (!grouped[d]) rest.emplace_back(d);
-    }
-    if (!rest.empty()) match.drones.push_back(rest);
-    match.wanted.resize(match.drones.size());
-
-    std::vector<std::size_t> set_of_part(keyframe.parts.size());
-    for (std::size_t p = 0; p < keyframe.parts.size(); ++p) {
-        const auto group = std::ranges::find_if(
-            wholes, [&](std::size_t g) { return route.groups[g].name == keyframe.parts[p].group; });
-        std::optional<std::size_t>* wanted =
-            group == wholes.end() ? nullptr : &match.wanted[static_cast<std::size_t>(group - wholes.begin())];
-        set_of_part[p] = wanted != nullptr && *wanted ? **wanted : match.slots.size();
-        if (set_of_part[p] == match.slots.size()) match.slots.emplace_back();
-        if (wanted != nullptr) *wanted = set_of_part[p];
-    }
-    if (!formation.spare.empty() && formation.spare.back()) {  // spare slots are a set of their own
-        set_of_part.push_back(match.slots.size());
-        match.slots.emplace_back();
-    }
-    for (std::size_t s = 0; s < formation.part.size(); ++s) match.slots[set_of_part[formation.part[s]]].emplace_back(s);
-    return match;
-}
-
 Result<Assignment> assign(const Mission& mission, const Route& route, const Keyframe& keyframe,
                           const Formation& formation, const Points& from_m, const Run& run) {
     const SeparationMetric metric{mission.limits.downwash};
@@ -99,8 +46,9 @@ Result<Assignment> assign(const Mission& mission, const Route& route, const Keyf
         case Assign::groups:
             break;
     }
-    return assign_groups(from_m, formation.points_m, match_groups(mission, route, keyframe, formation), arrive.pins,
-                         metric, run);
+    auto match = match_groups(route.groups, keyframe, formation, from_m.size());
+    if (!match) return match.error();
+    return assign_groups(from_m, formation.points_m, *match, rules, metric, run);
 }
 
 const char* name_of(Assign assign) {
