@@ -127,7 +127,7 @@ void require_bars(const std::string& name, const Measures& rigid) {
 }
 
 Json methods(const Arguments& arguments) {
-    const auto seed = static_cast<std::uint64_t>(arguments.number("--seed", 1.0));
+    const auto seed = static_cast<std::uint64_t>(arguments.number("seed", 1.0));
     const std::vector<std::pair<std::string, bodies::Move>> moves{
         {"ring-1", bodies::ring_of_bodies(1, 1.0, seed)},
         {"ring-2", bodies::ring_of_bodies(2, 1.0, seed)},
@@ -157,7 +157,7 @@ Json methods(const Arguments& arguments) {
             }
         }
     }
-    const std::string file = arguments.option("--markdown", "");
+    const std::string file = arguments.option("markdown", "");
     if (!file.empty() && !(std::ofstream(file) << table.str())) throw std::runtime_error("cannot write " + file);
     return json;
 }
