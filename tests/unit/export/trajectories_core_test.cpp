@@ -266,7 +266,7 @@ TEST(Trajectories, TellsWhatIsWrongAndWhere) {
     EXPECT_EQ(problem_of("PK"), "byte 0: cut short");
     EXPECT_THAT(problem_of(std::string(100, 'x')), HasSubstr("does not begin with AEROGRAM"));
     EXPECT_EQ(problem_of(with<std::uint32_t>(file, 8, 2)), "byte 8: version 2; this program reads version 1");
-    EXPECT_EQ(problem_of(with<std::uint32_t>(file, 16, 3)), "byte 16: unknown flags");
+    EXPECT_EQ(problem_of(with<std::uint32_t>(file, 16, 5)), "byte 16: unknown flags");
     EXPECT_EQ(problem_of(with<std::uint32_t>(file, 72, 0xFFFFFFF0U)), "byte 72: a count that the file cannot hold");
     EXPECT_EQ(problem_of(with<char>(file, 76, '\xFF')), "byte 76: text that is not plain UTF-8");
     std::string other_hash = file;
