@@ -109,6 +109,74 @@ TEST(AssignGroups, StopsWhenAsked) {
     EXPECT_EQ(assign_groups(kFrom, kTo, three_groups(), {}, kEuclidean, run).error().code, ErrorCode::stopped);
 }
 
+/// Two rows of four, each of two pairs; the other formation has the rows on swapped sides and the pairs swapped inside.
+TEST(AssignGroups, GroupsInGroupsGoToSetsInSets) {
+    const Points from{{0, 0, 0}, {1, 0, 0}, {4, 0, 0}, {5, 0, 0}, {0, 9, 0}, {1, 9, 0}, {4, 9, 0}, {5, 9, 0}};
+    const Points to{{4, 9, 5}, {5, 9, 5}, {0, 9, 5}, {1, 9, 5}, {4, 0, 5}, {5, 0, 5}, {0, 0, 5}, {1, 0, 5}};
+    const Subsets<DroneId> low{{range<DroneId>(0, 2), range<DroneId>(2, 4)}, {}},
+        high{{range<DroneId>(4, 6), range<DroneId>(6, 8)}, {}};
+    const Subsets<SlotId> first{{range<SlotId>(0, 2), range<SlotId>(2, 4)}, {}},
+        second{{range<SlotId>(4, 6), range<SlotId>(6, 8)}, {}};
+    GroupMatch groups{{range<DroneId>(0, 4), range<DroneId>(4, 8)},
+                      {range<SlotId>(0, 4), range<SlotId>(4, 8)},
+                      {},
+                      {low, high},
+                      {first, second}};
+    const Assignment found = assign_groups(from, to, groups, {}, kEuclidean, aerogram::Run{}).value();
+    EXPECT_THAT(numbers(found.slot_of), ElementsAre(6, 7, 4, 5, 2, 3, 0, 1));
+    EXPECT_TRUE(found.pairwise);
+    // A pin takes the pair along, and with it the pair's row.
+    const Assignment pinned =
+        assign_groups(from, to, groups, {{{DroneId(0), SlotId(1)}}}, kEuclidean, aerogram::Run{}).value();
+    EXPECT_THAT(numbers(pinned.slot_of), ElementsAre(1, 0, 2, 3, 6, 7, 4, 5));
+}
+
+TEST(AssignGroups, WhatNoInnerSetHoldsStaysTogether) {
+    GroupMatch groups = three_groups();
+    groups.drones = {range<DroneId>(0, 8)};
+    groups.slots = {range<SlotId>(0, 8)};
+    groups.drones_inside = {{{range<DroneId>(0, 3)}, {}}};
+    groups.slots_inside = {{{range<SlotId>(0, 3)}, {}}};
+    const std::vector<std::uint32_t> found = numbers(grouped(groups).value().slot_of);
+    EXPECT_THAT(std::vector(found.begin(), found.begin() + 3), ElementsAre(2, 1, 0));
+    groups.slots_inside = {{{range<SlotId>(0, 2)}, {}}};
+    EXPECT_EQ(refusal(groups),
+              "the rest of group 1 has 5 drones, but the rest of its slot set that it must take has 6 slots");
+    groups.slots_inside = {{{range<SlotId>(0, 2), range<SlotId>(2, 8)}, {}}};
+    EXPECT_EQ(refusal(groups),
+              "inside group 1: 0 groups of 2 drones but 1 slot set of that size: make the sizes equal or name who goes "
+              "where");
+    // Sets on one side only say nothing: drones are matched as in one group.
+    groups.slots_inside.clear();
+    EXPECT_THAT(numbers(grouped(groups).value().slot_of), ElementsAre(3, 4, 5, 2, 1, 0, 7, 6));
+}
+
+TEST(AssignGroups, RandomTreesKeepEveryLevelTogether) {
+    for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+        SCOPED_TRACE(seed);
+        const Points from = random_points(60, seed), to = random_points(60, seed + 100);
+        GroupMatch groups;
+        for (std::size_t g = 0; g < 3; ++g) {
+            groups.drones.push_back(range<DroneId>(20 * g, 20 * g + 20));
+            groups.slots.push_back(range<SlotId>(20 * g, 20 * g + 20));
+            Subsets<DroneId> drones;
+            Subsets<SlotId> slots;
+            for (std::size_t k = 0; k < 4; ++k) {
+                drones.sets.push_back(range<DroneId>(20 * g + 5 * k, 20 * g + 5 * k + 5));
+                slots.sets.push_back(range<SlotId>(20 * g + 5 * k, 20 * g + 5 * k + 5));
+            }
+            groups.drones_inside.push_back(drones);
+            groups.slots_inside.push_back(slots);
+        }
+        const Assignment found = assign_groups(from, to, groups, {}, kEuclidean, aerogram::Run{}).value();
+        EXPECT_TRUE(is_bijection(found.slot_of));
+        for (std::size_t d = 0; d < 60; ++d) EXPECT_EQ(found.slot_of[d].value / 5, found.slot_of[d / 5 * 5].value / 5);
+        for (std::size_t d = 0; d < 60; ++d)
+            EXPECT_EQ(found.slot_of[d].value / 20, found.slot_of[d / 20 * 20].value / 20);
+        EXPECT_LE(found.duality_gap, 1e-12);
+    }
+}
+
 TEST(AssignGroups, SetsThatAreNoPartitionAreBugs) {
     GroupMatch groups = three_groups();
     groups.drones[0].push_back(DroneId(3));
