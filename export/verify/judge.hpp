@@ -72,7 +72,7 @@ struct VerifiedSeparation {
     std::size_t first = 0, second = 0;  ///< 0-based
     double time_s = 0.0;
 };
-/// Smallest distance of any two drones at any instant while not both on the ground (export/verify/ground.hpp), on
+/// Smallest distance of any two drones at any instant unless excused() (export/verify/ground.hpp), on
 /// piecewise Bézier curves of any degree and knots. Distances within resolved_m of 0 are a lower bound of 0. When all
 /// stay at least beyond_m apart, that is the lower bound, and attained is infinite.
 ///
@@ -84,8 +84,8 @@ struct VerifiedSeparation {
 ///
 /// Errors: invalid_input for shows that are not well formed; stopped.
 ///
-/// Accuracy and cost: arithmetic 1e-9 m within 100 km of the origin, taken off the lower bound; 0.2-0.3 ms a drone and
-/// minute.
+/// Accuracy and cost: arithmetic 1e-9 m within 100 km of the origin, taken off the lower bound; about 0.05 ms a drone
+/// and minute.
 Result<VerifiedSeparation> verify_separation(const RecordedShow& show, double downwash, double beyond_m, const Run& run,
                                              const SeparationSearch& search = {});
 
