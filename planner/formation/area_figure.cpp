@@ -7,11 +7,13 @@
 #include "planner/formation/area_sampling.hpp"
 #include "planner/formation/contour_graph.hpp"
 #include "planner/formation/contour_track.hpp"
+#include "planner/formation/slide_apart.hpp"
 #include "planner/formation/stroke_sampling.hpp"
 
 namespace aerogram::planner {
 namespace {
 
+constexpr std::size_t kSlideRounds = 200;
 constexpr double kAspectStep = 0.01;   ///< of its logarithm
 constexpr double kCloseCorners = 0.7;  ///< spacings; corners nearer than this are one
 
@@ -71,7 +73,7 @@ Figure outlined_figure(Region region, std::size_t count) {
         const double close = kCloseCorners * length / static_cast<double>(count);
         auto points = sample_strokes(contour_graph(outline, close), Vec2(1.0), count);
         if (!points) points = sample_strokes(contour_graph(outline, 0.0), Vec2(1.0), count);  // dots only
-        return std::move(points).value();
+        return slide_apart(outline, std::move(points).value(), length / static_cast<double>(count), kSlideRounds);
     });
 }
 

@@ -11,6 +11,7 @@
 #include "planner/formation/lloyd.hpp"
 #include "planner/formation/outline_points.hpp"
 #include "planner/formation/push_apart.hpp"
+#include "planner/formation/slide_apart.hpp"
 #include "tests/unit/planner/formation/random.hpp"
 
 namespace aerogram::planner::testing {
@@ -255,6 +256,28 @@ TEST(PushApart, Property1TheSmallestDistanceNeverFalls) {
         EXPECT_GE(brute_smallest(points), before) << "seed " << seed;
         EXPECT_NEAR(smallest_distance(points), brute_smallest(points), 1e-15) << "seed " << seed;
     }
+}
+
+TEST(SlideApart, Property1And2PointsStayOnTheirContoursAndTheSmallestDistanceNeverFalls) {
+    for (std::uint64_t seed = 1; seed <= cases(20); ++seed) {
+        Random random(seed);
+        const Region region = letter_h();
+        const ContourTrack track(region.contours[0]);
+        std::vector<Vec2> points;
+        for (int i = 0; i < 40; ++i) points.push_back(track.at(random.between(0.0, track.length())));
+        const auto out = slide_apart(region, points, track.length() / 40.0, 100);
+        ASSERT_EQ(out.size(), points.size());
+        EXPECT_GT(brute_smallest(out), brute_smallest(points)) << "seed " << seed;
+        for (const Vec2& p : out) EXPECT_LT(distance_to_outline(region, p), 1e-9) << "seed " << seed;
+    }
+}
+
+TEST(SlideApart, PointsOfNeighbouringLinesComeToStandAlternately) {
+    const Region two{{{{0, 0}, {10, 0}, {10, 5}, {0, 5}}, {{0, 5.1}, {10, 5.1}, {10, 10}, {0, 10}}}};
+    std::vector<Vec2> points;  // face to face across the gap
+    for (int i = 1; i < 10; ++i) points.insert(points.end(), {Vec2(i, 5), Vec2(i, 5.1)});
+    EXPECT_LT(brute_smallest(points), 0.11);
+    EXPECT_GT(brute_smallest(slide_apart(two, points, 1.0, 300)), 0.45);
 }
 
 }  // namespace
