@@ -1,12 +1,23 @@
 #pragma once
 #include <cstdint>
+#include <optional>
+#include <utility>
 #include <vector>
 
+#include "geo/airspace.hpp"
+#include "geo/limits.hpp"
 #include "geo/result.hpp"
 #include "geo/run.hpp"
 #include "planner/motion/act.hpp"
+#include "planner/motion/certificate.hpp"
 
 namespace aerogram::planner {
+
+/// Speed and acceleration limits that hold when one knot interval takes step_s.
+struct MotionLimits {
+    Limits limits;
+    double step_s = 0.0;
+};
 
 struct ProjectionTask {
     double required_m = 0.0;  ///< separation to reach, in the metric
@@ -20,19 +31,37 @@ struct ProjectionTask {
     /// Inner knots (3..K-6) whose positions stay as they are: the keyframes that a flow passes. Velocities there may
     /// change; the band does not apply to the three rows that carry one.
     std::vector<std::size_t> held_knots;
+    /// Where given, the projection tries to hold these too, so that separating does not lengthen the act. Where it
+    /// cannot have both it separates.
+    std::optional<MotionLimits> motion;
+    geo::Airspace airspace;          ///< fence, audience and obstacles that the interior keeps clear of
+    double airspace_margin_m = 0.0;  ///< by this much, or as much as its own ends do
 };
+
 struct Projected {
     Lattice lattice;
     int rounds = 0;
-    double lower_bound_m = 0.0;  ///< bound_separation of the result
-    bool separated = false;      ///< keeps(lower_bound_m, required) and all free rows are in the band
+    double lower_bound_m = 0.0;        ///< bound_separation of the result; 0 where it was given up too crowded to bound
+    bool separated = false;            ///< keeps(lower_bound_m, required) and all free rows are in the band
+    std::optional<Encounter> closest;  ///< time_s: share of the act
+    bool limits_held = true;           ///< speed and acceleration, to 0.5 %
+    bool airspace_held = true;         ///< on the chords; the certificate judges the curves
+    /// Pairs (lattice's numbers, first < second) that are still too close; at most 4 a drone, closest time unknown.
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> stuck;
+
+    [[nodiscard]] bool holds_all() const { return separated && limits_held && airspace_held; }
 };
 
-/// Moves control points as little and as smoothly as it can until no two drones come closer than required: Sobolev
-/// space-time projection (DESIGN.md 8). The first and last three rows never move.
+/// Moves control points as little and as smoothly as it can until no two drones come closer than required and the
+/// interior holds the other constraints: Sobolev space-time projection (DESIGN.md 8). The first and last three rows
+/// never move, whether they rest or ride.
 /// Corrections push apart, at the chords' closest approach, the pairs that come too close, and are spread over W knots
-/// of time by (I + W⁴ D₂ᵀD₂)⁻¹, so that the motion stays as smooth as it was. Properties: (1) endpoints exact (2) an
-/// already separated input comes back unchanged (3) deterministic in seed. Errors: stopped.
+/// of time by (I + W⁴ D₂ᵀD₂)⁻¹, so that the motion stays as smooth as it was; limits, band and airspace push through
+/// the same filter. A fleet that contracts to less room than it needs is first blown up there.
+/// Properties: (1) endpoints exact (2) an input that holds everything comes back unchanged (3) deterministic in seed,
+/// whatever the thread count. Errors: stopped.
+/// Cost: 10,000 optimally matched drones 0.3-1.8 s, certificate included; near linear. Gives up when
+/// 60 rounds bring no progress, or after 400,000 chord checks a drone.
 Result<Projected> project_separation(const Lattice& input, const ProjectionTask& task, const Run& run);
 
 }  // namespace aerogram::planner

@@ -1,0 +1,26 @@
+#pragma once
+#include <cstddef>
+
+#include "planner/separation/projection.hpp"
+
+namespace aerogram::planner {
+
+/// Pushes one drone's control rows towards speed and acceleration limits: differences of rows that are too long are
+/// shortened, in such measure that what comes out of the Sobolev filter is about the excess (DESIGN.md 8, 3).
+class MotionPush {
+  public:
+    /// @param width  W of the filter.  @param gain  by which filtered corrections are multiplied.
+    MotionPush(const MotionLimits& motion, double width, double gain);
+
+    /// The worst of each quantity over its limit: 1 is at a limit. @param x, y, z  rows of one drone.
+    [[nodiscard]] double ratio(const double* x, const double* y, const double* z, std::size_t rows) const;
+    /// Adds corrections for every difference above its limit.
+    void push(const double* x, const double* y, const double* z, std::size_t rows, double* cx, double* cy,
+              double* cz) const;
+
+  private:
+    double horizontal_m_, up_m_, down_m_, bend_m_;  ///< limits of ΔP and Δ²P
+    double speed_weight_, bend_weight_;
+};
+
+}  // namespace aerogram::planner
