@@ -40,20 +40,19 @@ std::vector<Leg> legs_until_the_last_formation(const std::vector<Leg>& all, bool
     return legs;
 }
 
-/// Times in whole ticks; what the planes' first leg would be is nothing.
-void round_times(const Mission& mission, std::vector<LegMotion>& motions) {
-    const Millis tick_ms = ride_tick_ms(mission.fleet.drones);
-    for (LegMotion& motion : motions) {
-        motion.shortest.duration_ms = whole_ticks(motion.shortest.duration_ms, tick_ms);
-        if (motion.wanted_s) {
-            const auto wanted_ms = static_cast<Millis>(std::ceil(*motion.wanted_s * 1000.0 - 1e-6));
-            motion.wanted_s = seconds_from_ms(whole_ticks(wanted_ms, tick_ms));
-        }
-    }
-    if (mission.fleet.vehicle != Vehicle::plane) return;
-    motions.front().motion = Hold{end_positions(motions.front().motion)};
-    motions.front().shortest = {};
-    motions.front().wanted_s.reset();
+/// Times in whole ticks.
+void round_times(Millis tick_ms, LegMotion& motion) {
+    motion.shortest.duration_ms = whole_ticks(motion.shortest.duration_ms, tick_ms);
+    if (!motion.wanted_s) return;
+    const auto wanted_ms = static_cast<Millis>(std::ceil(*motion.wanted_s * 1000.0 - 1e-6));
+    motion.wanted_s = seconds_from_ms(whole_ticks(wanted_ms, tick_ms));
+}
+
+/// Planes do not fly their first leg: they stand, as it were, at its end.
+void leave_out(LegMotion& motion) {
+    motion.motion = Hold{end_positions(motion.motion)};
+    motion.shortest = {};
+    motion.wanted_s.reset();
 }
 
 std::size_t first_ridden(const std::vector<Act>& acts) {
@@ -61,10 +60,24 @@ std::size_t first_ridden(const std::vector<Act>& acts) {
     return static_cast<std::size_t>(held - acts.begin());
 }
 
+/// A leg that takes longer. What starts by and by is planned anew for that time, unless the designer gave another.
+Status lengthen(const Mission& placed, const Route& route, Leg& leg, LegMotion& motion, const TooFast& wish,
+                const Run& run) {
+    if (!motion.fixed || placed.keyframes[leg.last].arrive.duration_s) {
+        motion.shortest = {wish.duration_ms, wish.limit};
+        return Done{};
+    }
+    leg.how.duration_s = seconds_from_ms(wish.duration_ms);
+    auto longer = plan_leg(placed, route, leg, run);
+    if (!longer) return longer.error();
+    motion = std::move(*longer);
+    round_times(ride_tick_ms(placed.fleet.drones), motion);
+    return Done{};
+}
+
 /// Builds the timeline, longer and longer, until the ride holds; puts the ridden acts into it.
-Result<Ride> ride_timeline(const Mission& mission, const Mission& placed, const Route& route,
-                           const std::vector<Leg>& legs, std::vector<LegMotion> motions, const Run& run,
-                           Timeline& timeline) {
+Result<Ride> ride_timeline(const Mission& mission, const Mission& placed, const Route& route, std::vector<Leg>& legs,
+                           std::vector<LegMotion>& motions, const Run& run, Timeline& timeline) {
     TooFast last;
     for (int round = 0; round < kMostRounds; ++round) {
         run.report("ride", static_cast<double>(round) / kMostRounds);
@@ -81,7 +94,8 @@ Result<Ride> ride_timeline(const Mission& mission, const Mission& placed, const 
         }
         for (const TooFast& wish : out->too_fast) {
             last = wish;
-            motions[*built->leg_of[begin + wish.act]].shortest = {wish.duration_ms, wish.limit};
+            const std::size_t leg = *built->leg_of[begin + wish.act];
+            if (auto done = lengthen(placed, route, legs[leg], motions[leg], wish, run); !done) return done.error();
         }
     }
     return Error{ErrorCode::infeasible,
@@ -137,13 +151,14 @@ Result<Flown> plan_riding(const Mission& mission, const Run& run) {
     auto motions = gather<LegMotion>(flown.legs.size(), run, "transitions",
                                      [&](std::size_t l) { return plan_leg(*placed, *route, flown.legs[l], quiet); });
     if (!motions) return motions.error();
-    round_times(mission, *motions);
+    for (LegMotion& motion : *motions) round_times(ride_tick_ms(mission.fleet.drones), motion);
+    if (planes) leave_out(motions->front());
+    const auto ridden = ride_timeline(mission, *placed, *route, flown.legs, *motions, run, flown.timeline);
+    if (!ridden) return ridden.error();
     for (std::size_t l = 0; l < motions->size(); ++l) {
         flown.reports.push_back((*motions)[l].report);
         flown.reports.back().required_separation_m = required_separation_m(mission, flown.legs[l]);
     }
-    const auto ridden = ride_timeline(mission, *placed, *route, flown.legs, std::move(*motions), run, flown.timeline);
-    if (!ridden) return ridden.error();
     carry_keyframes(*ridden, ridden->acts.front().start_ms, flown.timeline.keyframes);
     if (planes) return flown;
     if (auto home = return_home(mission, *route, all, flown, run); !home) return home.error();

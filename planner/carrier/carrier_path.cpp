@@ -15,8 +15,9 @@ namespace {
 constexpr double kShare = 0.5;        ///< of the limits, for the carrier's turns
 constexpr double kSlopeShare = 0.25;  ///< of the limits, for its changes of slope
 constexpr double kNoSlope = 1e-9;
-constexpr double kRampSlope = 1.5;  ///< the largest slope of u²(3 - 2u), by which curvatures and slopes change
-constexpr double kSwing_s = 3.0;    ///< a turn that swings formations round is entered this slowly
+constexpr double kRampSlope = 1.5;   ///< the largest slope of u²(3 - 2u), by which curvatures and slopes change
+constexpr double kSwing_s = 3.0;     ///< a turn that swings formations round is entered this slowly
+constexpr double kSwingShare = 0.5;  ///< and is this much gentler
 constexpr double kNoTurn_rad = 1e-9;
 constexpr double kTurnsBack_rad = kPi - 1e-3;
 constexpr double kPanel_rad = 0.5;  ///< a quadrature panel turns no more than this
@@ -56,8 +57,11 @@ struct Bend {
 Bend bend_of(const Limits& limits, const Carrier& carrier) {
     const double v = carrier.speed_mps;
     Bend bend{kShare * limits.acceleration_mps2 / (v * v), kShare * limits.jerk_mps3 / (v * v * v), 0.0};
-    if (carrier.turn) bend.ramp_m = kSwing_s * v;
     if (limits.plane) bend.curvature = std::min(bend.curvature, kShare * radians(limits.plane->turn_rate_dps) / v);
+    if (carrier.turn) {  // who is far from the carrier swings round it
+        bend.curvature *= kSwingShare;
+        bend.ramp_m = kSwing_s * v;
+    }
     return bend;
 }
 
