@@ -8,8 +8,8 @@
 
 namespace aerogram::planner {
 
-/// The route of a carrier with its corners rounded. Seen from above: straight lines, and at each waypoint between them a
-/// turn whose curvature rises and falls smoothly along the way (a circle between them where the turn is long; where
+/// The route of a carrier with its corners rounded. Seen from above: straight lines, and at each waypoint between them
+/// a turn whose curvature rises and falls smoothly along the way (a circle between them where the turn is long; where
 /// formations turn too, twice as wide and entered over at least three seconds). Height: the slope between two waypoints
 /// is constant and changes smoothly about the middles of the turns. At the carrier's speed a turn takes half of the
 /// acceleration, jerk and, of planes, turn rate allowed, a change of slope a quarter; the rest is left to the
