@@ -174,6 +174,27 @@ TEST(Hierarchy, Property5RigidMotionsAreFlownRigidlyHalfTurnsIncluded) {
     }
 }
 
+TEST(Hierarchy, Property1EndsAreMetBesideObstacleVerticesThatTheFleetKeepsItsPlaceTo) {
+    Random random(7);
+    const Points fixed = random_points(random, 2);
+    const auto beside = [&](Points drones) {
+        Points all = drones;
+        all.insert(all.end(), fixed.begin(), fixed.end());
+        return SpectralKeyframe{std::move(drones), nearest_graph(all, 6), fixed};
+    };
+    const SpectralKeyframe a = beside(random_points(random, 18)), b = beside(random_points(random, 18));
+    for (const Method method : {Method::straight, Method::spectral, Method::rigid}) {
+        for (const double blend : {1.0, 0.4}) {
+            const Interpolation motion = flown(a, b, split(0, 18, {3}, method, blend));
+            EXPECT_LT(largest_distance(at(motion, 18, 0.0), a.positions_m), 1e-9);
+            EXPECT_LT(largest_distance(at(motion, 18, 1.0), b.positions_m), 1e-9);
+        }
+    }
+    // Groups of one are their drones: the same flight, obstacles and all.
+    const Interpolation ones = flown(a, b, split(0, 18, {18}, Method::spectral)), alone = flat(Method::spectral, a, b);
+    EXPECT_LT(largest_distance(at(ones, 18, 0.4), at(alone, 18, 0.4)), 1e-9);
+}
+
 TEST(Hierarchy, GroupsThatSwapPlacesAreNotSpunRound) {
     // Two groups of four swap along a half circle, each keeping its orientation.
     Points from, to;
