@@ -100,11 +100,12 @@ bool ClosePairs::refresh(const SampledCurves& samples, const Run& run) {
         if (stale[s]) list(stretches_[s], samples);
     });
     if (run.stopped()) return false;
+    listed_ = 0;
     for (std::size_t s = 0; s < stretches_.size(); ++s) {
         if (!stale[s]) continue;
-        ++listed_;
         for (std::size_t i = 0; i < n_; ++i) travelled_m_[i * stretches_.size() + s] = 0.0;
         const auto& found = stretches_[s].found;
+        listed_ += n_ + found.size() / 2;
         for (std::size_t p = 0; p < found.size() && !crowded_; p += 2) add(found[p], found[p + 1], stretches_[s]);
     }
     if (first_time) put_in_order();

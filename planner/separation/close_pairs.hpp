@@ -36,7 +36,9 @@ class ClosePairs {
     [[nodiscard]] bool crowded() const { return crowded_; }
     [[nodiscard]] std::vector<ClosePair>& pairs() { return pairs_; }
     [[nodiscard]] const std::vector<ClosePair>& pairs() const { return pairs_; }
-    [[nodiscard]] std::size_t listed() const { return listed_; }  ///< stretches listed so far: the work done
+    /// Drones whose pairs were listed anew by the last refresh, counted by stretch; and pairs found then: the work
+    /// done.
+    [[nodiscard]] std::size_t listed() const { return listed_; }
 
   private:
     struct Stretch {

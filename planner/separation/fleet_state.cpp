@@ -13,10 +13,10 @@ namespace {
 
 constexpr std::size_t kPairsAPiece = 2048, kDronesAPiece = 64;
 constexpr std::size_t kDronesABlock = SobolevSmoother::kLanes / 3;
-constexpr double kFullGain = 2.0;     ///< what the limits' weights reckon with (projection.cpp)
-constexpr double kRelaxation = 0.9;   ///< of pushes that act on one drone alone
-constexpr double kIntoBand_m = 0.02;  ///< aimed at inside the band
-constexpr double kAtLimit = 1.003;    ///< differences up to this share of their limit are left alone
+constexpr double kFullGain = 2.0;      ///< what the limits' weights reckon with (projection.cpp)
+constexpr double kRelaxation = 0.9;    ///< of pushes that act on one drone alone
+constexpr double kIntoBand_m = 0.02;   ///< aimed at inside the band
+constexpr double kAtLimit = 1.003;     ///< differences up to this share of their limit are left alone
 constexpr double kLongestStep = 0.12;  ///< of the required separation
 constexpr std::size_t kMostIntervals = 1024;
 constexpr std::size_t kReadBeyond = 4;  ///< places that closest_approaches may read behind the last sample
@@ -272,12 +272,13 @@ void FleetState::fill_corrections(std::size_t drone, double gain, bool limits, d
     }
 }
 
-void FleetState::advance(double gain, bool limits, const Run& run) {
+std::size_t FleetState::advance(double gain, bool limits, const Run& run) {
     std::vector<std::uint32_t> drones;
     for (std::uint32_t i = 0; i < curves_.drones; ++i) {
         if (pulled_[i] || outside_m_[i] > 0.0 || (limits && ratio_[i] > kAtLimit)) drones.push_back(i);
     }
     move(drones, gain, run, [&](std::uint32_t i, double* const c[3]) { fill_corrections(i, gain, limits, c); });
+    return drones.size();
 }
 
 void FleetState::nudge_close(std::uint64_t seed, double size_m, const Run& run) {

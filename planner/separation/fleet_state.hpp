@@ -32,15 +32,16 @@ class FleetState {
     /// Adds what takes drones clear of the airspace's edges; returns the largest shortfall, metres.
     double push_airspace(const Run& run);
     /// Moves the drones that something pulls at: gain times the filtered forces, limits and band; clears the forces.
-    void advance(double gain, bool limits, const Run& run);
+    /// @returns how many.
+    std::size_t advance(double gain, bool limits, const Run& run);
     /// Instead of moving by the forces, which are cleared: a smooth seeded bump for each drone of a close pair.
     void nudge_close(std::uint64_t seed, double size_m, const Run& run);
 
     /// Lists the pairs anew, or brings the list up to date. False when stopped or crowded.
     bool list_pairs(double needed_m, double slack_m, const Run& run);
     bool refresh_pairs(const Run& run) { return pairs_->refresh(samples_, run); }
+    [[nodiscard]] std::size_t listed() const { return pairs_->listed(); }
     [[nodiscard]] bool crowded() const { return pairs_->crowded(); }
-    [[nodiscard]] std::size_t asked() const { return pairs_->listed(); }
 
     [[nodiscard]] double motion_ratio() const;   ///< worst over all drones, 1: at a limit; 0 without limits
     [[nodiscard]] double band_excess_m() const;  ///< what the worst free row is outside the band

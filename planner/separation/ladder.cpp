@@ -91,6 +91,7 @@ class Ladder {
         ProjectionTask task = task_.projection;
         task.samples_per_interval = std::max<std::size_t>(task.samples_per_interval, 2);
         task.smoothing_knots = kWide * static_cast<double>(rows);
+        if (!target_of.empty()) task.most_work *= 0.5;
         if (task.motion) task.motion->step_s *= static_cast<double>(task_.rows - 3) / static_cast<double>(rows - 3);
         if (task.motion && task_.may_stretch) task.motion->step_s *= kStretches[1];
         std::string rung =

@@ -11,28 +11,31 @@
 namespace aerogram::planner {
 namespace {
 
-constexpr double kAim = 1.01;            ///< aiming at the requirement itself never quite gets there (DESIGN.md 8)
-constexpr double kGain = 2.0;            ///< 1 takes twice the rounds, 3 overshoots
-constexpr double kNoise_m = 0.05;        ///< smooth, seeded: breaks head-on symmetry
-constexpr double kSlack = 0.25;          ///< of the required separation: drones that moved farther are asked again
-constexpr double kLimitsHeld = 1.005;    ///< of a limit
-constexpr double kInBand_m = 0.05;       ///< closer than this to the band, rows are just put into it
-constexpr double kClear_m = 1e-3;        ///< airspace is held to this
-constexpr int kWindow = 60;              ///< rounds whose best is compared with that of the rounds before
-constexpr double kProgress = 0.98;       ///< of the shortfall, from window to window
-constexpr double kNearer_m = 1e-3;       ///< the closest pair moved apart by this, from window to window
-constexpr int kForLimits = 60;           ///< rounds that limits get after everything else holds
-constexpr int kMostForLimits = 150;      ///< rounds that limits get at all
-constexpr double kTailAim = 1.03;        ///< what the aim grows to, of the requirement, when the end is slow
-constexpr double kTailGrowth = 1.0005;   ///< a round
-constexpr double kMostWork = 400'000.0;  ///< chords looked at, a drone
+constexpr double kAim = 1.01;              ///< aiming at the requirement itself never quite gets there (DESIGN.md 8)
+constexpr double kGain = 2.0;              ///< 1 takes twice the rounds, 3 overshoots
+constexpr double kNoise_m = 0.05;          ///< smooth, seeded: breaks head-on symmetry
+constexpr double kSlack = 0.25;            ///< of the required separation: drones that moved farther are asked again
+constexpr double kLimitsHeld = 1.005;      ///< of a limit
+constexpr double kInBand_m = 0.05;         ///< closer than this to the band, rows are just put into it
+constexpr double kClear_m = 1e-3;          ///< airspace is held to this
+constexpr std::size_t kFewDrones = 2'000;  ///< fewer get the work of so many: it is soon done
+constexpr std::size_t kMostStuck = 4;      ///< stuck pairs a drone that are reported
+constexpr int kWindow = 60;                ///< rounds whose best is compared with that of the rounds before
+constexpr double kProgress = 0.98;         ///< of the shortfall, from window to window
+constexpr double kNearer_m = 1e-3;         ///< the closest pair moved apart by this, from window to window
+constexpr int kForLimits = 60;             ///< rounds that limits get after everything else holds
+constexpr int kMostForLimits = 150;        ///< rounds that limits get at all
+constexpr double kTailAim = 1.03;          ///< what the aim grows to, of the requirement, when the end is slow
+constexpr double kTailGrowth = 1.0005;     ///< a round
+constexpr double kMoveWork = 300.0;        ///< what moving or listing one drone costs, in chords looked at
 
 /// When to give up: a whole window of rounds in which neither the shortfall fell nor the closest pair moved apart, or
 /// as much work done as is reasonable.
 class Patience {
   public:
-    explicit Patience(std::size_t drones) : left_(kMostWork * static_cast<double>(drones)) {}
+    explicit Patience(double work) : left_(work) {}
     void encourage() { before_ = now_ = std::numeric_limits<double>::infinity(); }
+    void spend(std::size_t drones) { left_ -= kMoveWork * static_cast<double>(drones); }
     bool gone(const FleetState::Closeness& now, double others_m, int round) {
         left_ -= static_cast<double>(now.looked_at);
         now_ = std::min(now_, now.shortfall_m + others_m);
@@ -59,7 +62,7 @@ class Projection {
 
     Result<Projected> project() {
         bool listed = fleet_.list_pairs(kTailAim * task_.required_m, kSlack * task_.required_m, run_);
-        Patience patience(input_.drones);
+        Patience patience(task_.most_work * static_cast<double>(std::max(input_.drones, kFewDrones)));
         for (int round = 0;; ++round) {
             if (run_.stopped()) return stopped_error();
             if (!listed) return given_up(round);
@@ -87,9 +90,10 @@ class Projection {
             if (round == 0 && close.closest_m < task_.required_m) {
                 fleet_.nudge_close(task_.seed, kNoise_m, run_);
             } else {
-                fleet_.advance(kGain, limits_wanted, run_);
+                patience.spend(fleet_.advance(kGain, limits_wanted, run_));
             }
             listed = fleet_.refresh_pairs(run_);
+            patience.spend(fleet_.listed());
         }
     }
 
@@ -114,13 +118,15 @@ class Projection {
             projected.lattice = fleet_.lattice_in_band();
             projected.rounds = round;
             projected.closest = fleet_.encounter(fleet_.push_pairs(aim_m_, task_.required_m, run_));
+            projected.stuck = fleet_.close();
+            projected.stuck.resize(std::min(projected.stuck.size(), kMostStuck * input_.drones));
             return projected;
         }
         auto projected = judged(std::max(round, 1));
         if (!projected) return projected.error();
         projected->rounds = round;
         projected->stuck = fleet_.close();
-        projected->stuck.resize(std::min(projected->stuck.size(), 4 * input_.drones));
+        projected->stuck.resize(std::min(projected->stuck.size(), kMostStuck * input_.drones));
         return projected;
     }
 

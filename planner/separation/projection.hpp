@@ -26,7 +26,8 @@ struct ProjectionTask {
     double ceiling_z_m = 1e9;  ///< and at or below
     std::uint64_t seed = 1;    ///< of the noise that breaks head-on symmetry
     int max_rounds = 400;
-    double smoothing_knots = 0.0;          ///< W, width over which a correction spreads; 0: rows / 17
+    double most_work = 300'000.0;  ///< before giving up: chord checks a drone (1-2 ms), of at least 2,000 drones
+    double smoothing_knots = 0.0;  ///< W, width over which a correction spreads; 0: rows / 17
     std::size_t samples_per_interval = 1;  ///< chords a knot interval: 1 for matched maps, 2 otherwise
     /// Inner knots (3..K-6) whose positions stay as they are: the keyframes that a flow passes. Velocities there may
     /// change; the band does not apply to the three rows that carry one.
@@ -61,7 +62,7 @@ struct Projected {
 /// Properties: (1) endpoints exact (2) an input that holds everything comes back unchanged (3) deterministic in seed,
 /// whatever the thread count. Errors: stopped.
 /// Cost: 10,000 optimally matched drones 0.3-1.8 s, certificate included; near linear. Gives up when
-/// 60 rounds bring no progress, or after 400,000 chord checks a drone.
+/// 60 rounds bring no progress, or at most_work (20,000 drones: about half a minute).
 Result<Projected> project_separation(const Lattice& input, const ProjectionTask& task, const Run& run);
 
 }  // namespace aerogram::planner
