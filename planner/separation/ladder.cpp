@@ -55,6 +55,7 @@ class Ladder {
         if (!projected) return projected.error();
         rounds_ += projected->rounds;
         if (projected->rounds > 0) rungs_.push_back(rung + ", " + std::to_string(projected->rounds) + " rounds");
+        if (projected->rounds == 0 && !projected->separated) rungs_.push_back(rung + ": too crowded to begin");
         stuck_ = std::move(projected->stuck);
         stuck_targets_ = target_of;
         const bool enough = projected->separated && projected->airspace_held &&
@@ -78,6 +79,7 @@ class Ladder {
     Result<bool> longer(const Lattice& raw, double stretch) {
         ProjectionTask task = task_.projection;
         task.motion->step_s *= stretch;
+        task.most_work *= 0.25;  // if looser limits help, they help soon
         std::ostringstream rung;
         rung << "projection in " << stretch << " times the time";
         return project(raw, task, rung.str());
