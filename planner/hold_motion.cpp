@@ -13,16 +13,30 @@ namespace {
 constexpr double kKnotsPerTurn = 64.0;
 constexpr std::size_t kLeastKnots = 33, kMostKnots = 2001;
 
-Vec3 barycentre(const Points& points_m) {
+bool stays(const std::vector<bool>& still, std::size_t i) {
+    return !still.empty() && still[i];
+}
+
+Vec3 barycentre(const Points& points_m, const std::vector<bool>& still) {
     Vec3 sum{};
-    for (const Vec3& p : points_m) sum += p;
-    return sum / static_cast<double>(points_m.size());
+    double moving = 0.0;
+    for (std::size_t i = 0; i < points_m.size(); ++i) {
+        if (stays(still, i)) continue;
+        sum += points_m[i];
+        moving += 1.0;
+    }
+    return moving > 0.0 ? sum / moving : sum;
 }
 
 /// The formation at share s of its motion.
-void moved(const Points& formation_m, const Vec3& middle_m, const HoldMotion& motion, double s, Vec3* out) {
+void moved(const Points& formation_m, const Vec3& middle_m, const HoldMotion& motion, const std::vector<bool>& still,
+           double s, Vec3* out) {
     const double c = std::cos(s * motion.spin_rad), d = std::sin(s * motion.spin_rad);
     for (std::size_t i = 0; i < formation_m.size(); ++i) {
+        if (stays(still, i)) {
+            out[i] = formation_m[i];
+            continue;
+        }
         const Vec3 arm = formation_m[i] - middle_m;
         out[i] = middle_m + Vec3{c * arm.x - d * arm.y, d * arm.x + c * arm.y, arm.z} + s * motion.drift_m;
     }
@@ -30,25 +44,25 @@ void moved(const Points& formation_m, const Vec3& middle_m, const HoldMotion& mo
 
 }  // namespace
 
-Points after_hold(const Points& formation_m, const HoldMotion& motion) {
+Points after_hold(const Points& formation_m, const HoldMotion& motion, const std::vector<bool>& still) {
     Points out = formation_m;
-    if (motion.moves()) moved(formation_m, barycentre(formation_m), motion, 1.0, out.data());
+    if (motion.moves()) moved(formation_m, barycentre(formation_m, still), motion, still, 1.0, out.data());
     return out;
 }
 
-Lattice hold_lattice(const Points& formation_m, const HoldMotion& motion) {
+Lattice hold_lattice(const Points& formation_m, const HoldMotion& motion, const std::vector<bool>& still) {
     // The minimum-jerk clock runs at up to 15/8 of its mean speed: that many more knots.
     const double turns = std::abs(motion.spin_rad) / (2.0 * std::numbers::pi);
     const auto knots = std::clamp(static_cast<std::size_t>(std::ceil(15.0 / 8.0 * kKnotsPerTurn * turns)) + 1,
                                   kLeastKnots, kMostKnots);
-    const Vec3 middle_m = barycentre(formation_m);
+    const Vec3 middle_m = barycentre(formation_m, still);
     Points samples_m(knots * formation_m.size());
     for (std::size_t k = 0; k < knots; ++k) {
         const double s =
             profile_value(ProfileKind::minimum_jerk, static_cast<double>(k) / static_cast<double>(knots - 1));
-        moved(formation_m, middle_m, motion, s, samples_m.data() + k * formation_m.size());
+        moved(formation_m, middle_m, motion, still, s, samples_m.data() + k * formation_m.size());
     }
-    const Points end_m = after_hold(formation_m, motion);
+    const Points end_m = after_hold(formation_m, motion, still);
     std::copy(formation_m.begin(), formation_m.end(), samples_m.begin());
     std::copy(end_m.begin(), end_m.end(), samples_m.end() - static_cast<std::ptrdiff_t>(end_m.size()));
     return lattice_through(samples_m, formation_m.size());

@@ -1,15 +1,20 @@
 #pragma once
+#include <vector>
+
 #include "planner/mission/mission.hpp"
 #include "planner/motion/act.hpp"
 
 namespace aerogram::planner {
 
 /// Where a formation is after its hold: turned by the spin about the vertical through its barycentre, moved by the
-/// drift. Distances between drones stay as they are.
-[[nodiscard]] Points after_hold(const Points& formation_m, const HoldMotion& motion);
+/// drift. Distances between those who move stay as they are.
+/// @param still  one a place, or empty: places marked neither move nor count for the barycentre (spares above pads).
+[[nodiscard]] Points after_hold(const Points& formation_m, const HoldMotion& motion,
+                                const std::vector<bool>& still = {});
 
 /// The hold as one act at rest at both ends: spin and drift by one minimum-jerk clock. Ends are formation_m and
 /// after_hold's, exactly. Accuracy: within 1e-5 of a drone's distance from the axis of the true circle between knots.
-[[nodiscard]] Lattice hold_lattice(const Points& formation_m, const HoldMotion& motion);
+[[nodiscard]] Lattice hold_lattice(const Points& formation_m, const HoldMotion& motion,
+                                   const std::vector<bool>& still = {});
 
 }  // namespace aerogram::planner

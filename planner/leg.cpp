@@ -27,6 +27,17 @@ void add_waves(std::vector<Leg>& legs, const Mission& mission, const PadLayers& 
     }
 }
 
+/// Whether the drones that arrive at keyframe k, and at all after it, are exchangeable.
+bool nobody_is_named_from(const Mission& mission, std::size_t k) {
+    const auto by_places_alone = [](const Keyframe& keyframe) {
+        const Arrive& how = keyframe.arrive;
+        return how.assign == Assign::shortest && how.pins.empty() && how.forbid.empty();
+    };
+    return mission.groups.empty() && mission.adjacency.empty() && !mission.carrier &&
+           std::all_of(mission.keyframes.begin() + static_cast<std::ptrdiff_t>(k), mission.keyframes.end(),
+                       by_places_alone);
+}
+
 /// The arrival at keyframe k, or the flow that begins there.
 Leg arrival(const Mission& mission, const Route& route, std::size_t k) {
     Leg leg;
@@ -43,6 +54,7 @@ Leg arrival(const Mission& mission, const Route& route, std::size_t k) {
     leg.from_m = k == 0 ? route.layers.lifted_m : route.stops[k - 1].left_from_m;
     leg.to_m = stop.by_drone_m;
     leg.assignment = stop.assignment;
+    leg.may_swap = leg.how.method != Method::flow && nobody_is_named_from(mission, k);
     for (std::size_t q = leg.first; q <= leg.last; ++q) leg.pairwise = leg.pairwise && route.stops[q].pairwise;
     return leg;
 }

@@ -18,6 +18,7 @@ struct Leg {
     bool arrives = false;             ///< false: take-off, return, landing
     Points from_m, to_m;              ///< by drone
     bool pairwise = true;             ///< of the matching flown
+    bool may_swap = false;            ///< drones may take each other's targets: from here on nobody's name matters
     std::string assignment;
 };
 

@@ -1,12 +1,14 @@
 #include "planner/leg_motion.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "geo/units.hpp"
 #include "planner/auto_choice.hpp"
 #include "planner/leg_shape.hpp"
 #include "planner/motion/certificate.hpp"
-#include "planner/separation/projection.hpp"
+#include "planner/separation/ladder.hpp"
+#include "planner/separation/social_force.hpp"
 #include "planner/transition/flow.hpp"
 #include "planner/transition/straight.hpp"
 
@@ -17,6 +19,9 @@ constexpr std::size_t kRows = 63, kFineRows = 103;  ///< control rows of an act:
 constexpr std::size_t kFlowRowsPerLeg = 40;
 /// Sideways motion stays this far above the minimum navigation altitude where the projection moves it.
 constexpr double kAboveFloor_m = 0.05;
+/// The projection keeps this far from fences, audiences and obstacles, so that neither its tolerance nor the curve
+/// between samples uses up the distance.
+constexpr double kAirspaceMargin_m = 0.1;
 /// A staggered act's duration is found in at most so many rounds, each that much longer than what the last one needed.
 constexpr int kStaggerRounds = 8;
 constexpr double kStaggerRoom = 1.01;
@@ -64,122 +69,166 @@ Result<Flow> flow_of(const Mission& mission, const Route& route, const Leg& leg,
     return flow_transition(keyframes, legs, leg.how.spectral, kFlowRowsPerLeg, run);
 }
 
+std::string joined(const std::vector<std::string>& rungs) {
+    std::string out;
+    for (const std::string& rung : rungs) out += (out.empty() ? "" : "; ") + rung;
+    return out;
+}
+
 /// One leg on its way from shape to separated motion.
 class Planner {
   public:
-    Planner(const Mission& mission, const Leg& leg, const Run& run)
-        : mission_(mission), leg_(leg), run_(run), required_m_(required_separation_m(mission, leg)) {
+    Planner(const Mission& mission, const Route& route, const Leg& leg, Method method, const Run& run)
+        : mission_(mission), route_(route), leg_(leg), method_(method), run_(run) {
         result_.wanted_s = leg.how.duration_s;
-        result_.report.required_separation_m = required_m_;
+        result_.report.method = name_of(method);
+        result_.report.required_separation_m = required_separation_m(mission, leg);
     }
 
-    Result<LegMotion> fly_straight_up_or_down() {
-        result_.report.method = name_of(Method::straight);
-        result_.motion = straight_transition(leg_.from_m, leg_.to_m, leg_.how.profile, kRows);
+    Result<LegMotion> fly_straight() {
+        result_.motion = straight_lines();
         return finished();
     }
 
-    Result<LegMotion> fly(const LegShape& shape, Method method) {
-        result_.report.method = name_of(method);
-        const bool lines = method == Method::straight && leg_.how.groups.empty();
+    Result<LegMotion> fly(const LegShape& shape) {
+        const bool lines = method_ == Method::straight && leg_.how.groups.empty();
         if (leg_.how.stagger_s > 0.0 && lines) return fly_staggered(shape);
-        if (lines) {
+        if (lines && leg_.how.separation == SeparationMethod::none) return fly_straight();
+        if (lines && in_open_air()) {
             auto safe = straight_is_safe();
             if (!safe) return safe.error();
-            if (*safe || leg_.how.separation == SeparationMethod::none) return fly_straight_up_or_down();
+            if (*safe) return fly_straight();
         }
-        if (auto done = separate(shape, 0.0); !done) return done.error();
+        if (auto done = separate_shape(shape, 0.0, leg_.how.duration_s); !done) return done.error();
+        if (lines && result_.report.separation_by.empty()) result_.motion = straight_lines();  // nothing was in the way
         return finished();
     }
 
-    Result<LegMotion> fly(const Flow& flow, const std::vector<Keyframe>& keyframes) {
-        result_.report.method = name_of(Method::flow);
-        result_.motion = flow.lattice;
+    Result<LegMotion> fly(const Flow& flow) {
         result_.keyframe_knots.assign(flow.keyframe_knots.begin() + 1, flow.keyframe_knots.end());
         std::optional<double> sum_s = 0.0;  // a flow's legs have durations all together or as shares
         for (std::size_t k = leg_.first; k <= leg_.last; ++k) {
-            const auto& duration_s = keyframes[k].arrive.duration_s;
+            const auto& duration_s = mission_.keyframes[k].arrive.duration_s;
             sum_s = sum_s && duration_s ? std::optional(*sum_s + *duration_s) : std::nullopt;
         }
         result_.wanted_s = sum_s;
+        result_.motion = flow.lattice;
         if (leg_.how.separation == SeparationMethod::none) return finished();
-        const std::vector<std::size_t> held(flow.keyframe_knots.begin() + 1, flow.keyframe_knots.end() - 1);
-        for (const bool wide : {false, true}) {
-            auto projected = project(flow.lattice, held, wide);
-            if (!projected) return projected.error();
-            if (take(std::move(*projected), wide ? "projection, wide filter" : "projection")) break;
-        }
+        LadderTask task = ladder(flow.lattice, sum_s);
+        task.projection.held_knots.assign(flow.keyframe_knots.begin() + 1, flow.keyframe_knots.end() - 1);
+        task.rows = flow.lattice.rows();
+        task.fine_rows = 0;
+        task.raw = [&flow](std::size_t) { return Result<Lattice>(flow.lattice); };
+        if (auto done = climb(task); !done) return done.error();
         return finished();
     }
 
   private:
+    double required_m() const { return result_.report.required_separation_m; }
+    SeparationMetric metric() const { return {mission_.limits.downwash}; }
+    Straight straight_lines() const { return straight_transition(leg_.from_m, leg_.to_m, leg_.how.profile, kRows); }
+    /// The route of a carrier is not where its legs are planned: fences and obstacles are judged on the ride.
+    bool in_open_air() const {
+        const geo::Airspace& air = mission_.airspace;
+        return mission_.carrier || (air.geofence_m.empty() && air.audience_m.empty() && air.obstacles.empty());
+    }
+    bool is_freely_matched() const {
+        return leg_.arrives && leg_.how.assign == Assign::shortest && leg_.how.pins.empty() && leg_.how.forbid.empty();
+    }
+
     Result<bool> straight_is_safe() const {
-        const Straight lines = straight_transition(leg_.from_m, leg_.to_m, leg_.how.profile, kRows);
-        auto bound = bound_separation(lines, 1.0, {mission_.limits.downwash}, 2.0 * required_m_, run_);
+        auto bound = bound_separation(straight_lines(), 1.0, metric(), 2.0 * required_m(), run_);
         if (!bound) return bound.error();
-        return keeps(*bound, required_m_);
+        return keeps(*bound, required_m());
     }
 
-    Result<Projected> project(const Lattice& lattice, std::vector<std::size_t> held_knots, bool wide) const {
+    /// What the ladder needs to know but for how to get the motion.
+    LadderTask ladder(const Lattice& raw, std::optional<double> duration_s) const {
         const Band band = band_of(mission_, leg_);
-        ProjectionTask task;
-        task.required_m = required_m_;
-        task.metric = {mission_.limits.downwash};
-        task.floor_z_m = band.floor_z_m;
-        task.ceiling_z_m = band.ceiling_z_m;
-        task.seed = mission_.seed;
-        task.held_knots = std::move(held_knots);
-        task.samples_per_interval = leg_.pairwise && !wide ? 1 : 2;
-        if (wide) task.smoothing_knots = static_cast<double>(lattice.rows()) / 10.0;
-        return project_separation(lattice, task, run_);
+        LadderTask task;
+        ProjectionTask& p = task.projection;
+        p.required_m = required_m();
+        p.metric = metric();
+        p.floor_z_m = band.floor_z_m;
+        p.ceiling_z_m = band.ceiling_z_m;
+        p.seed = mission_.seed;
+        p.samples_per_interval = leg_.pairwise && method_ == Method::straight ? 1 : 2;
+        const double least_s = seconds_from_ms(shortest_duration(raw, mission_.limits).duration_ms);
+        p.motion = MotionLimits{mission_.limits,
+                                std::max(least_s, duration_s.value_or(0.0)) / static_cast<double>(raw.rows() - 3)};
+        if (!(p.motion->step_s > 0.0)) p.motion.reset();  // nobody moves
+        if (!in_open_air()) p.airspace = mission_.airspace;
+        p.airspace_margin_m = kAirspaceMargin_m;
+        task.rows = kRows;
+        task.fine_rows = kFineRows;
+        task.may_stretch = !duration_s;
+        return task;
     }
 
-    /// Keeps a projection's outcome; true when it separated.
-    bool take(Projected&& projected, const char* by) {
-        result_.report.separation_rounds += projected.rounds;
-        if (result_.report.separation_rounds > 0) result_.report.separation_by = by;
-        result_.separated = projected.separated;
-        result_.motion = std::move(projected.lattice);
-        return projected.separated;
+    /// Keeps what the ladder came to.
+    Status climb(const LadderTask& task) {
+        auto separation = planner::separate(task, run_);
+        if (!separation) return separation.error();
+        result_.report.separation_rounds += separation->rounds;
+        std::string& by = result_.report.separation_by;
+        const std::string rungs = joined(separation->rungs);
+        by += (by.empty() || rungs.empty() ? "" : "; ") + rungs;
+        result_.target_of = std::move(separation->target_of);
+        result_.motion = std::move(separation->motion);
+        return Done{};
     }
 
-    Status separate(const LegShape& shape, double stagger_share) {
+    Status separate_shape(const LegShape& shape, double stagger_share, std::optional<double> duration_s) {
         result_.motion = shape.lattice(kRows, stagger_share);
         if (leg_.how.separation == SeparationMethod::none) return Done{};
-        auto projected = project(std::get<Lattice>(result_.motion), {}, false);
-        if (!projected) return projected.error();
-        if (take(std::move(*projected), "projection")) return Done{};
-        auto wide = project(shape.lattice(kFineRows, stagger_share), {}, true);
-        if (!wide) return wide.error();
-        if (take(std::move(*wide), "projection, finer lattice and wide filter")) return Done{};
-        const bool free_matching = leg_.how.assign == Assign::shortest && leg_.how.pins.empty() &&
-                                   leg_.how.forbid.empty() && stagger_share == 0.0;
-        auto safe = straight_is_safe();
-        if (!safe) return safe.error();
-        if (!free_matching || !*safe) return Done{};
-        result_.motion = straight_transition(leg_.from_m, leg_.to_m, leg_.how.profile, kRows);
-        result_.separated = true;
-        result_.report.separation_by =
-            "straight lines, because the projection did not separate the " + result_.report.method + " paths";
-        return Done{};
+        LadderTask task = ladder(std::get<Lattice>(result_.motion), duration_s);
+        task.raw = [&, stagger_share](std::size_t rows) { return eased(shape.lattice(rows, stagger_share), task); };
+        if (leg_.may_swap && stagger_share == 0.0) {
+            task.swapped = [&](std::size_t rows, std::span<const std::uint32_t> target_of) -> Result<Lattice> {
+                Leg leg = leg_;
+                for (std::size_t i = 0; i < target_of.size(); ++i) leg.to_m[i] = leg_.to_m[target_of[i]];
+                auto other = LegShape::of(mission_, route_, leg, method_, run_);
+                if (!other) return other.error();
+                return other->lattice(rows);
+            };
+        }
+        if (is_freely_matched() && stagger_share == 0.0) task.straight = straight_lines();
+        return climb(task);
+    }
+
+    /// separation = "social_force": the forces first; the ladder takes over from where they got to.
+    Result<Lattice> eased(Lattice raw, const LadderTask& task) {
+        if (leg_.how.separation != SeparationMethod::social_force) return raw;
+        SocialForceTask forces;
+        forces.required_m = required_m();
+        forces.metric = metric();
+        forces.floor_z_m = task.projection.floor_z_m;
+        forces.ceiling_z_m = task.projection.ceiling_z_m;
+        forces.seed = mission_.seed;
+        auto out = ease_by_social_forces(raw, forces, run_);
+        if (!out) return out.error();
+        result_.report.separation_rounds += out->rounds;
+        if (out->rounds > 0) result_.report.separation_by = "social forces";
+        return std::move(out->lattice);
     }
 
     /// Starts spread over stagger_s: the geometry depends on the duration, so the duration is found first.
     Result<LegMotion> fly_staggered(const LegShape& shape) {
-        const Motion together = straight_transition(leg_.from_m, leg_.to_m, leg_.how.profile, kRows);
         const double stagger_s = leg_.how.stagger_s;
-        double duration_s = stagger_s + seconds_from_ms(shortest_duration(together, mission_.limits).duration_ms);
-        if (duration_s <= stagger_s) return fly_straight_up_or_down();  // nobody moves
-        if (leg_.how.duration_s) duration_s = std::max(duration_s, *leg_.how.duration_s);
+        const Millis together_ms = shortest_duration(straight_lines(), mission_.limits).duration_ms;
+        if (together_ms == 0) return fly_straight();  // nobody moves
+        double duration_s = std::max(stagger_s + seconds_from_ms(together_ms), leg_.how.duration_s.value_or(0.0));
         for (int round = 0;; ++round) {
             result_.report.separation_rounds = 0;
-            if (auto done = separate(shape, stagger_s / duration_s); !done) return done.error();
+            result_.report.separation_by.clear();
+            if (auto done = separate_shape(shape, stagger_s / duration_s, duration_s); !done) return done.error();
             const double needed_s = seconds_from_ms(shortest_duration(result_.motion, mission_.limits).duration_ms);
             if (needed_s <= duration_s || round == kStaggerRounds) break;
             duration_s = kStaggerRoom * needed_s;
         }
         Result<LegMotion> out = finished();
-        out->shortest.duration_ms = static_cast<Millis>(std::ceil(duration_s * 1000.0));
+        out->shortest.duration_ms =
+            std::max(out->shortest.duration_ms, static_cast<Millis>(std::ceil(duration_s * 1000.0 - 1e-6)));
         out->fixed = true;
         if (!out->wanted_s) out->wanted_s = seconds_from_ms(out->shortest.duration_ms);
         return out;
@@ -192,9 +241,10 @@ class Planner {
     }
 
     const Mission& mission_;
+    const Route& route_;
     const Leg& leg_;
+    Method method_;
     const Run& run_;
-    double required_m_;
     LegMotion result_;
 };
 
@@ -220,17 +270,17 @@ Result<LegMotion> plan_leg_by(const Mission& mission, const Route& route, const 
                               const Run& run) {
     auto shape = LegShape::of(mission, route, leg, method, run);
     if (!shape) return shape.error();
-    return Planner(mission, leg, run).fly(*shape, method);
+    return Planner(mission, route, leg, method, run).fly(*shape);
 }
 
 Result<LegMotion> plan_leg(const Mission& mission, const Route& route, const Leg& leg, const Run& run) {
     if (leg.role == ActRole::takeoff || leg.role == ActRole::landing)
-        return Planner(mission, leg, run).fly_straight_up_or_down();
+        return Planner(mission, route, leg, Method::straight, run).fly_straight();
     if (leg.how.method == Method::automatic) return choose_motion(mission, route, leg, run);
     if (leg.how.method != Method::flow) return plan_leg_by(mission, route, leg, leg.how.method, run);
     auto flow = flow_of(mission, route, leg, run);
     if (!flow) return flow.error();
-    return Planner(mission, leg, run).fly(*flow, mission.keyframes);
+    return Planner(mission, route, leg, Method::flow, run).fly(*flow);
 }
 
 }  // namespace aerogram::planner

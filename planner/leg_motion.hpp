@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,7 +28,7 @@ struct LegMotion {
     std::optional<double> wanted_s;           ///< the designer's duration
     bool fixed = false;                       ///< flown in wanted_s and no other time: its geometry depends on it
     std::vector<std::size_t> keyframe_knots;  ///< flows: knots at which keyframes first..last are met
-    bool separated = true;                    ///< as far as the ladder knows; the certificate decides
+    std::vector<std::uint32_t> target_of;     ///< drones that took each other's targets; empty: nobody did
     LegReport report;
 };
 

@@ -1,7 +1,9 @@
 #include "planner/plan.hpp"
 
+#include <algorithm>
 #include <iomanip>
 #include <optional>
+#include <span>
 #include <sstream>
 
 #include "geo/units.hpp"
@@ -72,12 +74,42 @@ void tell_how(Certificate& certificate, const Timeline& timeline, const std::vec
     }
 }
 
+/// Drones that took each other's targets on a leg go on as each other.
+void exchange_from(Route& route, std::size_t keyframe, std::span<const std::uint32_t> target_of) {
+    for (std::size_t k = keyframe; k < route.stops.size(); ++k) {
+        const Stop before = route.stops[k];
+        for (std::size_t d = 0; d < target_of.size(); ++d) {
+            route.stops[k].keyframe.slot_of[d] = before.keyframe.slot_of[target_of[d]];
+            route.stops[k].by_drone_m[d] = before.by_drone_m[target_of[d]];
+            route.stops[k].left_from_m[d] = before.left_from_m[target_of[d]];
+            route.stops[k].still[d] = before.still[target_of[d]];
+        }
+    }
+}
+
+/// Plans all legs; where drones had to swap targets, the legs after that once more.
+Result<std::vector<LegMotion>> plan_legs_with_swaps(const Mission& mission, Route& route, std::vector<Leg>& legs,
+                                                    const Run& run) {
+    auto motions = plan_legs(mission, route, legs, run);
+    if (!motions) return motions.error();
+    for (std::size_t l = 0; l < legs.size(); ++l) {
+        if ((*motions)[l].target_of.empty()) continue;
+        exchange_from(route, legs[l].last, (*motions)[l].target_of);
+        legs = legs_of(mission, route);
+        const std::vector<Leg> later(legs.begin() + static_cast<std::ptrdiff_t>(l) + 1, legs.end());
+        auto again = plan_legs(mission, route, later, run);
+        if (!again) return again.error();
+        std::ranges::move(*again, motions->begin() + static_cast<std::ptrdiff_t>(l) + 1);
+    }
+    return motions;
+}
+
 /// A show on one place: legs and holds on one clock.
 Result<Flown> plan_standing(const Mission& mission, const Run& run) {
     auto route = build_route(mission, run);
     if (!route) return route.error();
     Flown flown{legs_of(mission, *route), {}, {}};
-    auto motions = plan_legs(mission, *route, flown.legs, run);
+    auto motions = plan_legs_with_swaps(mission, *route, flown.legs, run);
     if (!motions) return motions.error();
     for (const LegMotion& motion : *motions) flown.reports.push_back(motion.report);
     auto timeline = build_timeline(mission, *route, flown.legs, std::move(*motions));

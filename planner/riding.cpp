@@ -147,6 +147,7 @@ Result<Flown> plan_riding(const Mission& mission, const Run& run) {
     if (!route) return route.error();
     const std::vector<Leg> all = legs_of(*placed, *route);
     Flown flown{legs_until_the_last_formation(all, planes), {}, {}};
+    for (Leg& leg : flown.legs) leg.may_swap = false;  // the ride lengthens legs one by one, as they are
     const Run quiet{run.stop, nullptr, 1};
     auto motions = gather<LegMotion>(flown.legs.size(), run, "transitions",
                                      [&](std::size_t l) { return plan_leg(*placed, *route, flown.legs[l], quiet); });

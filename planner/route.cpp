@@ -65,6 +65,11 @@ const char* name_of(Assign assign) {
     return "groups";
 }
 
+/// Slots that take no part in a keyframe's own motion.
+std::vector<bool> waiting_above_pads(const Mission& mission, const Formation& formation) {
+    return mission.fleet.spares == Spares::pads ? formation.spare : std::vector<bool>{};
+}
+
 /// Whether a keyframe's matching depends on places alone, not on which drone is where.
 bool by_places_alone(const Arrive& arrive) {
     return arrive.assign == Assign::shortest && arrive.pins.empty() && arrive.forbid.empty();
@@ -77,7 +82,8 @@ Result<std::vector<std::optional<Assignment>>> match_places(const Mission& missi
     return gather<std::optional<Assignment>>(
         formations.size(), run, "assign", [&](std::size_t k) -> Result<std::optional<Assignment>> {
             if (k == 0 || !by_places_alone(mission.keyframes[k].arrive)) return std::optional<Assignment>{};
-            const Points from_m = after_hold(formations[k - 1].points_m, mission.keyframes[k - 1].motion);
+            const Points from_m = after_hold(formations[k - 1].points_m, mission.keyframes[k - 1].motion,
+                                             waiting_above_pads(mission, formations[k - 1]));
             auto matched = assign_shortest(from_m, formations[k].points_m, {}, {mission.limits.downwash}, quiet);
             if (!matched) return matched.error();
             return std::optional(std::move(*matched));
@@ -101,12 +107,17 @@ Status find_clusters(const Mission& mission, Route& route, const Run& run) {
     return Done{};
 }
 
-Stop stop_at(const Keyframe& keyframe, Formation formation, Assignment assignment) {
+Stop stop_at(const Mission& mission, const Keyframe& keyframe, Formation formation, Assignment assignment) {
     Stop stop;
     stop.keyframe.name = keyframe.name;
-    for (const SlotId slot : assignment.slot_of) stop.by_drone_m.push_back(formation.points_m[slot.value]);
-    stop.left_from_m = after_hold(stop.by_drone_m, keyframe.motion);
+    const std::vector<bool> still = waiting_above_pads(mission, formation);
+    for (const SlotId slot : assignment.slot_of) {
+        stop.by_drone_m.push_back(formation.points_m[slot.value]);
+        stop.still.push_back(!still.empty() && still[slot.value]);
+    }
+    stop.left_from_m = after_hold(stop.by_drone_m, keyframe.motion, stop.still);
     stop.assignment = describe(name_of(keyframe.arrive.assign), assignment);
+    if (!formation.note.empty()) stop.assignment += "; " + formation.note;
     stop.pairwise = assignment.pairwise;
     stop.keyframe.formation_m = std::move(formation.points_m);
     stop.keyframe.colors = std::move(formation.colors);
@@ -144,7 +155,7 @@ Result<Route> build_route(const Mission& mission, const Run& run) {
             }
             assignment = std::move(*matched);
         }
-        route.stops.push_back(stop_at(keyframe, std::move((*formations)[k]), std::move(assignment)));
+        route.stops.push_back(stop_at(mission, keyframe, std::move((*formations)[k]), std::move(assignment)));
         if (k > 0) continue;
         if (auto done = find_clusters(mission, route, run); !done) return done.error();
     }

@@ -14,6 +14,7 @@ namespace aerogram::planner {
 struct Stop {
     PlannedKeyframe keyframe;  ///< times are still 0
     Points by_drone_m;         ///< by drone, on arrival: formation_m[slot_of[d]]
+    std::vector<bool> still;   ///< by drone: waits above a pad and takes no part in the keyframe's own motion
     Points left_from_m;        ///< by drone, after the keyframe's own motion
     std::string assignment;    ///< how drones were matched, for people
     bool pairwise = false;     ///< no two straight flights towards here cross (assignment.hpp)

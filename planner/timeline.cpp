@@ -32,7 +32,7 @@ std::string rounded_up_s(Millis ms) {
 
 class Builder {
   public:
-    Builder(const Mission& mission, const Route& route) : mission_(mission) {
+    Builder(const Mission& mission, const Route& route) : mission_(mission), route_(route) {
         for (const Stop& stop : route.stops) timeline_.keyframes.push_back(stop.keyframe);
     }
 
@@ -115,7 +115,8 @@ class Builder {
         standing.stands_to_ms = arrival_ms + hold_ms;
         if (hold_ms == 0) return Done{};
         const HoldMotion& moves = mission_.keyframes[leg.last].motion;
-        Motion hold = moves.moves() ? Motion(hold_lattice(leg.to_m, moves)) : Motion(Hold{leg.to_m});
+        Motion hold = moves.moves() ? Motion(hold_lattice(leg.to_m, moves, route_.stops[leg.last].still))
+                                    : Motion(Hold{leg.to_m});
         const ShortestDuration shortest = shortest_duration(hold, mission_.limits);
         if (hold_ms < shortest.duration_ms) {
             return Error{ErrorCode::invalid_input,
@@ -129,6 +130,7 @@ class Builder {
     }
 
     const Mission& mission_;
+    const Route& route_;
     Timeline timeline_;
 };
 

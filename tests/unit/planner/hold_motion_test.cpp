@@ -30,6 +30,16 @@ TEST(HoldMotion, AQuarterTurnIsCounterClockwiseFromAbove) {
     EXPECT_LT(glm::distance(after[1], Vec3(1, -8, 8)), 1e-12);
 }
 
+TEST(HoldMotion, ThoseWhoWaitAbovePadsNeitherMoveNorCount) {
+    const Points from_m{{10, 0, 50}, {-10, 0, 50}, {100, 200, 3}};
+    const HoldMotion motion{kTurn / 2, {}};
+    const Points after = after_hold(from_m, motion, {false, false, true});
+    EXPECT_LT(glm::distance(after[0], Vec3(-10, 0, 50)), 1e-12);
+    EXPECT_EQ(after[2], from_m[2]);
+    const Lattice lattice = hold_lattice(from_m, motion, {false, false, true});
+    for (std::size_t k = 0; k < lattice.rows(); ++k) EXPECT_LT(glm::distance(lattice.at(k, 2), from_m[2]), 1e-9);
+}
+
 TEST(HoldMotion, EndsAreExactAndAtRest) {
     for (const double spin : {0.3, -2.0, kTurn, 3.0 * kTurn}) {
         const Points from_m = cloud(2, 30);
