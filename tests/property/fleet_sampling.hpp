@@ -27,26 +27,42 @@ inline double distance_at(const planner::FlightPlan& plan, std::size_t first, st
         planner::sample(plan, DroneId(second), t_s).motion.position_m);
 }
 
-/// All pairs at every step of [begin, end], then the closest pair's own minimum around its sample (golden section).
+/// Whether a drone stands on its pad all through a take-off or landing: its neighbours may then be nearer.
+inline bool stands_on_pad(const planner::FlightPlan& plan, const planner::Act& act, std::size_t drone) {
+    if (act.role != planner::ActRole::takeoff && act.role != planner::ActRole::landing) return false;
+    for (int k = 0; k <= 8; ++k) {
+        const double t_s = 0.125 * k * seconds_from_ms(act.duration_ms);
+        const Vec3 at = planner::kinematics(act, DroneId(drone), t_s).position_m;
+        if (glm::distance(at, plan.pads_m[drone]) > 1e-6) return false;
+    }
+    return true;
+}
+
+/// All pairs at every step of an act but those excused, then the closest pair's own minimum around its sample (golden
+/// section).
 struct SampledSeparation {
     Closest sampled, refined;
 };
-inline SampledSeparation sampled_separation(const planner::FlightPlan& plan, Millis begin_ms, Millis end_ms,
-                                            Millis step_ms) {
+inline SampledSeparation sampled_separation(const planner::FlightPlan& plan, const planner::Act& act, Millis step_ms) {
+    const Millis begin_ms = act.start_ms, end_ms = act.end_ms();
+    std::vector<std::size_t> judged;
+    for (std::size_t d = 0; d < plan.drones(); ++d)
+        if (!stands_on_pad(plan, act, d)) judged.push_back(d);
     const SeparationMetric metric{plan.limits.downwash};
     SampledSeparation found;
     Closest& best = found.sampled;
     for (Millis ms = begin_ms; ms <= end_ms; ms += step_ms) {
         const double t_s = seconds_from_ms(ms);
         const Points now = positions_at(plan, t_s);
-        for (std::size_t i = 0; i < now.size(); ++i) {
-            for (std::size_t j = i + 1; j < now.size(); ++j) {
-                const double distance_m = metric.distance(now[i], now[j]);
-                if (distance_m < best.distance_m) best = {distance_m, i, j, t_s};
+        for (std::size_t a = 0; a < judged.size(); ++a) {
+            for (std::size_t b = a + 1; b < judged.size(); ++b) {
+                const double distance_m = metric.distance(now[judged[a]], now[judged[b]]);
+                if (distance_m < best.distance_m) best = {distance_m, judged[a], judged[b], t_s};
             }
         }
     }
     found.refined = best;
+    if (judged.size() < 2) return found;
     double low_s = std::max(seconds_from_ms(begin_ms), best.time_s - seconds_from_ms(step_ms));
     double high_s = std::min(seconds_from_ms(end_ms), best.time_s + seconds_from_ms(step_ms));
     for (int halving = 0; halving < 60; ++halving) {
