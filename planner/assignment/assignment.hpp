@@ -62,7 +62,8 @@ Result<Assignment> assign_shortest(std::span<const Vec3> from_m, std::span<const
 /// Properties: (1) a bijection that keeps the rules (2) longest_m is the least: a search found no matching with shorter
 /// flights only (3) cost_m2 is within duality_gap (as in assign_shortest) of the least at that length (4) same input,
 /// same result. Not pairwise in general: see `crossing`. A pinned flight longer than the rest needs sets the length.
-/// Cost: 10,000 drones 1-3 s, O(n) memory. Reports stage "assign". Errors: as assign_shortest.
+/// Cost: 10,000 drones 3-14 s (pads under letters, whose drones are alike, take longest), O(n) memory. Reports stage
+/// "assign". Errors: as assign_shortest.
 Result<Assignment> assign_bottleneck(std::span<const Vec3> from_m, std::span<const Vec3> to_m, const MatchRules& rules,
                                      const SeparationMetric& metric, const Run& run);
 
