@@ -1,7 +1,8 @@
 #include "planner/leg_shape.hpp"
 
 #include <algorithm>
-#include <numeric>
+#include <functional>
+#include <iterator>
 
 #include "planner/adjacency/adjacency.hpp"
 #include "planner/motion/profile.hpp"
@@ -63,8 +64,13 @@ std::vector<double> starting_order(const Points& from_m, const Points& to_m) {
 
 }  // namespace
 
-SpectralKeyframe graph_keyframe(const Mission& mission, const Route& route, const Points& by_drone_m) {
-    return {by_drone_m, edited_adjacency(delaunay_adjacency(by_drone_m), by_drone_m, route.groups, mission.adjacency)};
+SpectralKeyframe graph_keyframe(const Mission& mission, const Route& route, const Points& by_drone_m,
+                                std::span<const ObstacleVertex> obstacles) {
+    Points all_m = by_drone_m, fixed_m;
+    for (const ObstacleVertex& obstacle : obstacles) fixed_m.push_back(obstacle.at_m);
+    all_m.insert(all_m.end(), fixed_m.begin(), fixed_m.end());
+    const AdjacencyGraph graph = obstacle_adjacency(by_drone_m, obstacles);
+    return {by_drone_m, edited_adjacency(graph, all_m, route.groups, mission.adjacency), fixed_m};
 }
 
 Result<LegShape> LegShape::of(const Mission& mission, const Route& route, const Leg& leg, Method method,
@@ -77,8 +83,12 @@ Result<LegShape> LegShape::of(const Mission& mission, const Route& route, const 
     if (method == Method::straight && leg.how.groups.empty()) return shape;
     auto tree = motion_tree(mission, route, leg, method);
     if (!tree) return tree.error();
-    auto drawn = hierarchical_interpolation(graph_keyframe(mission, route, leg.from_m),
-                                            graph_keyframe(mission, route, leg.to_m), *tree, run);
+    // Obstacles stand where they are in the ground frame; on a carrier that is not where legs are planned.
+    const auto obstacles =
+        mission.carrier ? std::vector<ObstacleVertex>{}
+                        : obstacle_vertices(mission.airspace.obstacles, mission.obstacle_weights, leg.from_m, leg.to_m);
+    auto drawn = hierarchical_interpolation(graph_keyframe(mission, route, leg.from_m, obstacles),
+                                            graph_keyframe(mission, route, leg.to_m, obstacles), *tree, run);
     if (!drawn) return drawn.error();
     shape.interpolation_ = std::move(*drawn);
     return shape;

@@ -1,10 +1,12 @@
 #pragma once
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "geo/result.hpp"
 #include "geo/run.hpp"
+#include "planner/adjacency/obstacle_vertices.hpp"
 #include "planner/leg.hpp"
 #include "planner/transition/interpolation.hpp"
 #include "planner/transition/spectral.hpp"
@@ -34,6 +36,7 @@ class LegShape {
 };
 
 /// A place as transitions see it: where each drone is, and who its neighbours are there after the designer's edits.
-[[nodiscard]] SpectralKeyframe graph_keyframe(const Mission& mission, const Route& route, const Points& by_drone_m);
+[[nodiscard]] SpectralKeyframe graph_keyframe(const Mission& mission, const Route& route, const Points& by_drone_m,
+                                              std::span<const ObstacleVertex> obstacles = {});
 
 }  // namespace aerogram::planner

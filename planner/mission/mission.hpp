@@ -178,9 +178,9 @@ struct Fleet {
 /// A route that the whole show rides along at constant speed: formations are placed relative to a point that moves
 /// along it.
 struct Carrier {
-    Points waypoints_m;  ///< >= 2, show frame, neighbours apart seen from above
+    Points waypoints_m;      ///< >= 2, show frame, neighbours apart seen from above
     double speed_mps = 0.0;  ///< over the ground
-    bool turn = false;  ///< formations turn with the route: their +y is the direction of flight
+    bool turn = false;       ///< formations turn with the route: their +y is the direction of flight
     int line = 0;
 };
 
@@ -193,8 +193,9 @@ struct Mission {
     std::optional<std::filesystem::path> audio;
     Fleet fleet;
     Limits limits;
-    geo::Airspace airspace;           ///< already in the show frame
-    std::vector<Keyframe> keyframes;  ///< >= 1
+    geo::Airspace airspace;                ///< already in the show frame
+    std::vector<double> obstacle_weights;  ///< one an obstacle: as a vertex of spectral transitions; 0: is none
+    std::vector<Keyframe> keyframes;       ///< >= 1
     std::vector<Group> groups;
     std::vector<Cue> cues;        ///< in time order
     double light_rate_hz = 25.0;  ///< [lights] rate_hz, [1, 50]

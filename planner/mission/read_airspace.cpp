@@ -173,7 +173,11 @@ void read_airspace(TableReader& root, Mission& mission) {
         }
     }
     for (TableReader& entry : airspace->tables("obstacle")) {
-        if (auto obstacle = read_obstacle(entry)) mission.airspace.obstacles.push_back(std::move(*obstacle));
+        const double weight = entry.number("weight", at_least(0.0, 1e6)).value_or(0.0);
+        if (auto obstacle = read_obstacle(entry)) {
+            mission.airspace.obstacles.push_back(std::move(*obstacle));
+            mission.obstacle_weights.push_back(weight);
+        }
     }
     check_pads(mission, *airspace);
     airspace->finish();
