@@ -1,11 +1,14 @@
 // Whole plans of random missions, seen through sample() alone. AEROGRAM_TEST_N sets the number of missions.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <regex>
 
+#include "brute_force.hpp"
 #include "fleet_sampling.hpp"
 #include "geo/show_frame.hpp"
 #include "random_missions.hpp"
+#include "random_shows.hpp"
 
 namespace aerogram::property {
 namespace {
@@ -43,6 +46,21 @@ TEST(PlanProperty, EveryMissionIsCertifiedOrRefusedByName) {
     }
     EXPECT_GT(certified, refused);
     EXPECT_GT(refused, 0);
+}
+
+/// Shows that can be flown by construction, of up to a hundred drones (aerogram_study random-shows: up to 20,000).
+TEST(PlanProperty, TameShowsAreCertifiedAndBruteForceFindsNoLess) {
+    int tame = 0;
+    for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(cases(30)) * 2; ++seed) {
+        const RandomShow show = random_show(seed, 100);
+        if (!show.tame) continue;
+        ++tame;
+        SCOPED_TRACE("seed " + std::to_string(seed) + "\n" + show.text);
+        const auto plan = plan_text(show.text);
+        ASSERT_TRUE(plan) << plan.error().message;
+        EXPECT_THAT(BruteForce(*plan, 3e4).check().lies, ::testing::IsEmpty());
+    }
+    EXPECT_GE(tame, cases(30));
 }
 
 /// 1 kHz over the whole show. Around the sampled minimum the closest pair is followed to its own minimum, so that what

@@ -1,11 +1,15 @@
 // Missions that cannot be flown: the refusal names two drones, a time and a distance, and sampling the uncertified plan
 // finds just that.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <regex>
 
+#include "brute_force.hpp"
 #include "fleet_sampling.hpp"
 #include "random_missions.hpp"
+#include "random_shows.hpp"
+#include "refusals.hpp"
 
 namespace aerogram::property {
 namespace {
@@ -90,34 +94,81 @@ TEST(RefusalProperty, CrossingFlightsAreNamedWithPairTimeAndDistance) {
     EXPECT_GE(2 * refused, cases(30));
 }
 
-/// A separation that the formations hold and the pads do not: the reader refuses it by the pads' numbers, and plan(),
-/// given such a mission by another program, by drones, time and distance.
-TEST(RefusalProperty, PadsTighterThanTheSeparationAreNamed) {
-    const std::regex kTight(R"(pad (\d+) and pad (\d+) are (\S+) m apart)");
+/// Pads closer than the separation are left and come back to in layers: whoever has left the ground is clear of all
+/// others that have, at every instant of every wave.
+TEST(RefusalProperty, PadsTighterThanTheSeparationAreLeftInLayers) {
     for (int seed = 1; seed <= cases(30) / 3; ++seed) {
         Random random(static_cast<std::uint64_t>(seed));
-        const double spacing_m = tenth(random, 1.6, 2.4);
         const std::string text =
-            head(2 + random.below(10), spacing_m) +
-            "[[keyframe]]\nname = \"a\"\nshape = \"circle\"\nsize_m = [30]\ncenter_m = [0, 0, 50]\n";
-        SCOPED_TRACE("seed " + std::to_string(seed));
-        const auto read = planner::parse_mission(text + "[limits]\nmin_separation_m = 2.5\n", "refused.toml");
-        ASSERT_FALSE(read);
-        EXPECT_NE(read.error().message.find("fleet.pads"), std::string::npos) << read.error().message;
-        std::smatch told;
-        ASSERT_TRUE(std::regex_search(read.error().message, told, kTight)) << read.error().message;
-        const auto pads_m = planner::parse_mission(text, "refused.toml")->fleet.pads_m;
-        EXPECT_NEAR(glm::distance(pads_m[std::stoul(told[1]) - 1], pads_m[std::stoul(told[2]) - 1]), std::stod(told[3]),
-                    5e-4);
-        Mission mission = planner::parse_mission(text, "refused.toml").value();
-        mission.limits.min_separation_m = 2.5;
-        const auto plan = planner::plan(mission, {}, aerogram::Run{});
-        ASSERT_FALSE(plan);
-        EXPECT_EQ(plan.error().code, ErrorCode::infeasible);
-        EXPECT_NE(plan.error().message.find("take-off: separation"), std::string::npos) << plan.error().message;
-        EXPECT_NE(plan.error().message.find("landing: separation"), std::string::npos) << plan.error().message;
-        expect_true_witnesses(mission, plan.error());
+            head(4 + random.below(20), tenth(random, 0.9, 2.4)) +
+            "[limits]\nmin_separation_m = 2.5\ndownwash = " + std::to_string(tenth(random, 1.0, 2.0)) +
+            "\n[[keyframe]]\nname = \"a\"\nshape = \"grid\"\ncenter_m = [0, 0, 60]\n";
+        SCOPED_TRACE("seed " + std::to_string(seed) + "\n" + text);
+        const auto plan = plan_text(text);
+        ASSERT_TRUE(plan) << plan.error().message;
+        const Shortfall found = BruteForce(*plan, 1e4).check();
+        EXPECT_THAT(found.lies, ::testing::IsEmpty());
+        int waves = 0;
+        for (const planner::Act& act : plan->acts) {
+            if (act.role != planner::ActRole::takeoff) continue;
+            ++waves;
+            EXPECT_EQ(act.name.rfind("take-off " + std::to_string(waves) + " of ", 0), 0U) << act.name;
+        }
+        EXPECT_GT(waves, 1);
     }
+}
+
+TEST(RefusalProperty, PadsOnTopOfEachOtherAreNamed) {
+    const std::string text = head(9, 0.1) + "[[keyframe]]\nname = \"a\"\nshape = \"grid\"\ncenter_m = [0, 0, 50]\n";
+    const auto read = planner::parse_mission(text, "refused.toml");
+    ASSERT_FALSE(read);
+    EXPECT_NE(read.error().message.find("fleet.pads"), std::string::npos) << read.error().message;
+}
+
+/// Shows that may ask for anything: what is refused names a mission line, or who, when and what, and the plan that was
+/// refused does just that.
+TEST(RefusalProperty, WildShowsAreRefusedByWhatSamplingFinds) {
+    int refused = 0, lines = 0;
+    for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(cases(30)) * 5; ++seed) {
+        const RandomShow show = random_show(seed, 60);
+        if (show.tame) continue;
+        SCOPED_TRACE("seed " + std::to_string(seed) + "\n" + show.text);
+        const auto plan = plan_text(show.text);
+        if (plan) continue;
+        if (plan.error().code == ErrorCode::invalid_input) {
+            ++lines;
+            EXPECT_TRUE(names_a_mission_line(plan.error().message)) << plan.error().message;
+            continue;
+        }
+        ++refused;
+        const auto uncertified = plan_text(show.text, 1, true);
+        ASSERT_TRUE(uncertified) << uncertified.error().message;
+        EXPECT_THAT(RefusalCheck(*uncertified, plan.error().message).problems(), ::testing::IsEmpty());
+    }
+    EXPECT_GT(refused, 0);
+    EXPECT_GT(lines, 0);
+}
+
+/// Nobody keeps the drones from a mast between them and their places: who flies into it, when and how deep is told.
+TEST(RefusalProperty, FlightsThroughAMastAreNamedWithDroneTimeAndDepth) {
+    int through = 0;
+    for (int seed = 1; seed <= cases(30); ++seed) {
+        Random random(static_cast<std::uint64_t>(seed));
+        std::ostringstream text;
+        text << head(2 + random.below(15), 2.5) << "[[airspace.obstacle]]\nname = \"the mast\"\nkind = \"cylinder\"\n"
+             << "center_m = [0, " << tenth(random, 15, 25) << "]\nradius_m = " << tenth(random, 2, 6)
+             << "\nheight_m = 60\n[[keyframe]]\nname = \"a\"\nshape = \"grid\"\ncenter_m = [" << tenth(random, -9, 9)
+             << ", 45, 40]\narrive = { separation = \"none\" }\n";
+        SCOPED_TRACE("seed " + std::to_string(seed) + "\n" + text.str());
+        const auto plan = plan_text(text.str());
+        if (plan) continue;
+        ASSERT_EQ(plan.error().code, ErrorCode::infeasible) << plan.error().message;
+        through += plan.error().message.find("is inside obstacle the mast by") != std::string::npos;
+        const auto uncertified = plan_text(text.str(), 1, true);
+        ASSERT_TRUE(uncertified) << uncertified.error().message;
+        EXPECT_THAT(RefusalCheck(*uncertified, plan.error().message).problems(), ::testing::IsEmpty());
+    }
+    EXPECT_GT(2 * through, cases(30));
 }
 
 }  // namespace
