@@ -11,6 +11,7 @@
 #include "planner/gather.hpp"
 #include "planner/leg.hpp"
 #include "planner/leg_motion.hpp"
+#include "planner/retrace.hpp"
 #include "planner/riding.hpp"
 #include "planner/route.hpp"
 #include "planner/timeline.hpp"
@@ -104,6 +105,33 @@ Result<std::vector<LegMotion>> plan_legs_with_swaps(const Mission& mission, Rout
     return motions;
 }
 
+/// Whether a way home, flown in its shortest time, holds every limit.
+Result<bool> is_safe(const Mission& mission, const Leg& leg, const LegMotion& motion, const Run& run) {
+    const Millis duration_ms = std::max<Millis>(1, motion.shortest.duration_ms);
+    auto judged = certify_acts(mission, {{leg.name, leg.role, Timing::free, 0, duration_ms, motion.motion}}, run);
+    if (!judged) return judged.error();
+    return judged->acts.front().certified();
+}
+
+/// Where drones would come too close on their way home from the last formation: the way out backwards, if that is safe.
+Status go_home_safely(const Mission& mission, const Route& route, std::vector<Leg>& legs,
+                      std::vector<LegMotion>& motions, const Run& run) {
+    const auto home =
+        std::ranges::find_if(legs, [](const Leg& leg) { return !leg.arrives && leg.role == ActRole::transit; });
+    const auto at = home - legs.begin();
+    auto safe = is_safe(mission, *home, motions[static_cast<std::size_t>(at)], run);
+    if (!safe || *safe) return safe ? Status(Done{}) : safe.error();
+    Ways back = retrace(mission, route, legs, motions);
+    for (std::size_t w = 0; w < back.legs.size(); ++w) {
+        safe = is_safe(mission, back.legs[w], back.motions[w], run);
+        if (!safe || !*safe) return safe ? Status(Done{}) : safe.error();
+    }
+    legs.insert(legs.erase(home), back.legs.begin(), back.legs.end());
+    motions.insert(motions.erase(motions.begin() + at), std::make_move_iterator(back.motions.begin()),
+                   std::make_move_iterator(back.motions.end()));
+    return Done{};
+}
+
 /// A show on one place: legs and holds on one clock.
 Result<Flown> plan_standing(const Mission& mission, const Run& run) {
     auto route = build_route(mission, run);
@@ -111,6 +139,7 @@ Result<Flown> plan_standing(const Mission& mission, const Run& run) {
     Flown flown{legs_of(mission, *route), {}, {}};
     auto motions = plan_legs_with_swaps(mission, *route, flown.legs, run);
     if (!motions) return motions.error();
+    if (auto done = go_home_safely(mission, *route, flown.legs, *motions, run); !done) return done.error();
     for (const LegMotion& motion : *motions) flown.reports.push_back(motion.report);
     auto timeline = build_timeline(mission, *route, flown.legs, std::move(*motions));
     if (!timeline) return timeline.error();

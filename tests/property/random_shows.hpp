@@ -40,7 +40,8 @@ class ShowWriter {
         choose_methods();
         write_limits();
         for (std::size_t k = 0; k < show_.keyframes; ++k) write_keyframe(k);
-        show_.text = head() + limits_.str() + "ceiling_m = " + std::to_string(std::lround(top_m_ + 60.0)) + '\n' +
+        const std::string top = head();  // knows how wide the pads are
+        show_.text = top + limits_.str() + "ceiling_m = " + std::to_string(std::lround(top_m_ + 60.0)) + '\n' +
                      airspace() + keyframes_.str();
         return show_;
     }
