@@ -34,6 +34,7 @@ TEST(LegShape, StraightRowsAreThoseOfTheProfile) {
 TEST(LegShape, StaggeredDronesLeaveOneAfterTheOtherTheForemostFirst) {
     const Mission mission = show_of(
         "[[keyframe]]\nname = \"a\"\nshape = \"line\"\nsize_m = [28]\ncenter_m = [0, 0, 40]\n"
+        "arrive = { assign = \"keep\" }\n"
         "[[keyframe]]\nname = \"b\"\nshape = \"line\"\nsize_m = [28]\ncenter_m = [60, 0, 40]\n"
         "arrive = { assign = \"keep\" }\n");
     const Lattice lattice = second_arrival(mission, Method::straight, 63, 0.5);
