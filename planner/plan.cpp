@@ -108,7 +108,8 @@ Result<std::vector<LegMotion>> plan_legs_with_swaps(const Mission& mission, Rout
 /// Whether a way home, flown in its shortest time, holds every limit.
 Result<bool> is_safe(const Mission& mission, const Leg& leg, const LegMotion& motion, const Run& run) {
     const Millis duration_ms = std::max<Millis>(1, motion.shortest.duration_ms);
-    auto judged = certify_acts(mission, {{leg.name, leg.role, Timing::free, 0, duration_ms, motion.motion}}, run);
+    const Run quiet{run.stop, nullptr, run.threads};
+    auto judged = certify_acts(mission, {{leg.name, leg.role, Timing::free, 0, duration_ms, motion.motion}}, quiet);
     if (!judged) return judged.error();
     return judged->acts.front().certified();
 }
