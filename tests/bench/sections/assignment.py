@@ -9,19 +9,14 @@ LIVE_UP_TO = 1000  # peers are measured in the same run up to here
 COST_ROUNDING = 1e-9
 
 
-def seconds(value, remembered=False):
-    digits = 3 if value < 10 else 1
-    return f"{value:.{digits}f} s" + ("\\*" if remembered else "")
-
-
-def beside(ours, result, remembered, failures, what):
+def beside(bench, ours, result, remembered, failures, what):
     """Time and ratio of a peer; its cost must agree with ours within the certified gap."""
     if result is None:
         return ["-", "-"]
     gap = ours["cost_m2"] / result["cost_m2"] - 1.0
     if not -COST_ROUNDING <= gap <= ours["gap"] + COST_ROUNDING:
         failures.append(f"{what}: our cost is {gap:+.2e} of the peer's, the certified gap is {ours['gap']:.1e}")
-    return [seconds(result["cpu_s"], remembered), f"{result['cpu_s'] / ours['cpu_s']:,.0f}x"]
+    return [bench.seconds(result["cpu_s"], remembered), f"{result['cpu_s'] / ours['cpu_s']:,.0f}x"]
 
 
 def section(bench):
@@ -32,13 +27,13 @@ def section(bench):
                 continue
             ours = bench.study("assignment", name, n)
             path = bench.instance(name, n)
-            row = [f"{name} {n:,}", seconds(ours["cpu_s"]), f"{ours['gap']:.1e}", f"{ours['peak_mb']:.1f} MB"]
+            row = [f"{name} {n:,}", bench.seconds(ours["cpu_s"]), f"{ours['gap']:.1e}", f"{ours['peak_mb']:.1f} MB"]
             for peer, asked, measure in (
                     ("lemon", n <= LEMON_UP_TO, lambda file=path: bench.program_peer("peer_lemon", file)),
                     ("scipy", (name, n) in SCIPY, lambda file=path: bench.python_peer("assignment", file))):
                 result, remembered = bench.peer(f"assignment {peer} {name} {n}", measure, n > LIVE_UP_TO) if asked \
                     else (None, False)
-                row += beside(ours, result, remembered, failures, f"{peer}, {name} {n}")
+                row += beside(bench, ours, result, remembered, failures, f"{peer}, {name} {n}")
             rows.append(row)
     if failures:
         raise RuntimeError("\n".join(failures))
