@@ -182,7 +182,7 @@ def main():
         start_s = time.monotonic()
         page += "\n" + module.section(bench)
         print(f"    {time.monotonic() - start_s:.0f} s", file=sys.stderr)
-    if there:
+    if there and "\\*" in page:
         page += (f"\n\\* remembered from {there['cpu']}, {there['cores']} cores, Debian {there['debian']}; "
                  "`tests/bench/study.py --measure-peers` measures them here.\n")
     (bench.build / ("study-quick.md" if options.quick else "study.md")).write_text(page)

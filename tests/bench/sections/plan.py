@@ -21,7 +21,7 @@ def larger(bench):
     """The same show by 20,000: more pads, everything higher up, where there is room for it."""
     text = (bench.source / MISSION).read_text()
     for here, there in (("drones = 10000", "drones = 20000"), ("columns = 100", "columns = 200"), ("ceiling_m = 400", "ceiling_m = 600"),
-                        ("endurance_s = 1200", "endurance_s = 2400"),
+                        ("endurance_s = 1200", "endurance_s = 2400"), ("hold_s = 60", "hold_s = 90"),
                         *((f"center_m = [0, 0, {z}]", "center_m = [0, 0, 280]") for z in (140, 150, 180, 200))):
         if here not in text:
             raise RuntimeError(f"{MISSION} does not say {here} any more")
