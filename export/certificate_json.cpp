@@ -50,6 +50,7 @@ Json to_json(const ActCertificate& act) {
               {"separation_by", act.separation_by},
               {"separation_rounds", act.separation_rounds},
               {"violations", act.violations}};
+    if (!act.chosen_because.empty()) json["chosen_because"] = act.chosen_because;
     if (act.plane) {
         json["min_airspeed_mps"] = act.plane->airspeed_min_mps.value;
         json["max_airspeed_mps"] = act.plane->airspeed_max_mps.value;
@@ -101,6 +102,7 @@ CertifiedAct act(const Field& field) {
         a.plane = {field["min_airspeed_mps"].number(), field["max_airspeed_mps"].number(), turn_rate_dps};
     }
     a.method = field["method"].text();
+    if (field.has("chosen_because")) a.chosen_because = field["chosen_because"].text();
     a.assignment = field["assignment"].text();
     a.path_ratio = field["path_ratio"].number();
     a.separation_by = field["separation_by"].text();

@@ -32,6 +32,7 @@ struct CertifiedAct {
     };
     std::optional<Plane> plane;  ///< of planes alone
     std::string method, separation_by, assignment;
+    std::string chosen_because;  ///< why `auto` chose the method; empty: it was named
     int separation_rounds = 0;
     double path_ratio = 1.0;
     bool certified = false;

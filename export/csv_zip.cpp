@@ -24,26 +24,46 @@ double largest_acceleration(const planner::FlightPlan& plan) {
     return largest;
 }
 
-void append_row(std::string& out, Millis time_ms, const planner::DroneState& state) {
-    const Vec3 p = to_skybrush(state.motion.position_m);
-    const Rgb8 c = quantised(state.color);
-    append_units(out, time_ms, 0);
-    for (const double coordinate : {p.x, p.y, p.z}) {
-        out += ',';
-        append_fixed(out, coordinate, 3);
+/// A row's time, which is the same for all drones.
+struct RowTime {
+    std::string text;
+    double time_s = 0.0;
+    const planner::Act* act = nullptr;
+    double local_s = 0.0;
+};
+
+std::vector<RowTime> rows_of(const planner::FlightPlan& plan) {
+    std::vector<RowTime> rows;
+    for (const Millis time_ms : csv_row_times(plan.duration_ms(), *csv_row_step_ms(plan))) {
+        RowTime row{{}, seconds_from_ms(time_ms), nullptr, 0.0};
+        append_units(row.text, time_ms, 0);
+        row.act = &plan.acts[planner::act_at(plan, row.time_s)];
+        row.local_s = row.time_s - seconds_from_ms(row.act->start_ms);
+        rows.push_back(std::move(row));
     }
-    for (const std::uint8_t component : {c.r, c.g, c.b}) {
+    return rows;
+}
+
+void append_color(std::string& out, const Rgb8& color) {
+    for (const std::uint8_t component : {color.r, color.g, color.b}) {
         out += ',';
         append_units(out, component, 0);
     }
-    out += '\n';
 }
 
-std::string csv_of(const planner::FlightPlan& plan, DroneId drone, const std::vector<Millis>& times) {
-    std::string out = "Time [msec],x [m],y [m],z [m],Red,Green,Blue\n";
-    out.reserve(times.size() * static_cast<std::size_t>(kRowBytes));
-    for (const Millis t : times) append_row(out, t, planner::sample(plan, drone, seconds_from_ms(t)));
-    return out;
+void append_csv(std::string& out, const planner::FlightPlan& plan, DroneId drone, const std::vector<RowTime>& rows) {
+    const std::vector<LightKey>& lights = plan.tracks[drone.value].lights;
+    out += "Time [msec],x [m],y [m],z [m],Red,Green,Blue\n";
+    for (const RowTime& row : rows) {
+        out += row.text;
+        const Vec3 p = to_skybrush(planner::kinematics(*row.act, drone, row.local_s).position_m);
+        for (const double coordinate : {p.x, p.y, p.z}) {
+            out += ',';
+            append_fixed(out, coordinate, 3);
+        }
+        append_color(out, quantised(light_at(lights, row.time_s)));
+        out += '\n';
+    }
 }
 
 std::string unsuited(const planner::FlightPlan& plan) {
@@ -61,10 +81,13 @@ std::string unsuited(const planner::FlightPlan& plan) {
 Result<std::vector<std::string>> write(const planner::FlightPlan& plan, const Seal&,
                                        const std::filesystem::path& folder, const Run& run) {
     if (std::string why = unsuited(plan); !why.empty()) return Error{ErrorCode::invalid_input, "csv: " + why};
-    const std::vector<Millis> times = csv_row_times(plan.duration_ms(), *csv_row_step_ms(plan));
-    std::vector<FileBytes> entries(plan.drones());
+    const std::vector<RowTime> rows = rows_of(plan);
+    std::vector<PackedEntry> entries(plan.drones());
     parallel_for(plan.drones(), run, "csv", [&](std::size_t i) {
-        entries[i] = {drone_name(i + 1, plan.drones()) + ".csv", csv_of(plan, DroneId(i), times)};
+        thread_local std::string text;
+        text.clear();
+        append_csv(text, plan, DroneId(i), rows);
+        entries[i] = packed_entry(drone_name(i + 1, plan.drones()) + ".csv", text);
     });
     if (run.stopped()) return stopped_error();
     if (const Status written = write_zip(folder / kFile, entries); !written) return written.error();

@@ -7,6 +7,7 @@
 #include "export/csv_zip.hpp"
 #include "export/decimal.hpp"
 #include "export/skybrush_frame.hpp"
+#include "export/text_cursor.hpp"
 #include "export/zip.hpp"
 #include "geo/units.hpp"
 
@@ -29,13 +30,14 @@ class CsvFile {
   public:
     CsvFile(std::string_view where, std::string_view text) : where_(where), lines_(without_blank_end(text), '\n') {}
 
-    Result<std::vector<Row>> rows() {
+    /// @param rows  replaced.
+    Status read(std::vector<Row>& rows) {
         header();
-        std::vector<Row> rows;
+        rows.clear();
         while (problem_.empty()) {
             const auto text = line();
             if (!text) break;
-            const Row row = parsed(*text);
+            const Row row = quickly_parsed(*text);
             if (problem_.empty() && !rows.empty() && row.time_ms <= rows.back().time_ms)
                 fail("time [msec] = " + std::to_string(row.time_ms) + ": must be above the row before, " +
                      std::to_string(rows.back().time_ms));
@@ -43,7 +45,7 @@ class CsvFile {
         }
         if (problem_.empty() && rows.size() < 2) fail("needs at least two rows");
         if (!problem_.empty()) return Error{ErrorCode::invalid_input, problem_};
-        return rows;
+        return Done{};
     }
 
   private:
@@ -75,6 +77,25 @@ class CsvFile {
     }
 
     static char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+    /// A row as most writers leave it; any other is for the careful reader.
+    Row quickly_parsed(std::string_view text) {
+        TextCursor cursor(text);
+        Row row;
+        row.time_ms = cursor.whole(kLongest_ms);
+        Vec3 p{};
+        for (double* const coordinate : {&p.x, &p.y, &p.z}) {
+            cursor.expect(",");
+            *coordinate = cursor.number(kFarthest_m);
+        }
+        for (std::uint8_t* const component : {&row.color.r, &row.color.g, &row.color.b}) {
+            cursor.expect(",");
+            *component = static_cast<std::uint8_t>(cursor.whole(255));
+        }
+        if (!cursor.ok() || !cursor.at_end()) return parsed(text);
+        row.position_m = from_skybrush(p);
+        return row;
+    }
 
     Row parsed(std::string_view text) {
         Fields fields(text, ',');
@@ -126,6 +147,8 @@ std::vector<LightKey> lights(const std::vector<Row>& rows) {
 RecordedDrone drone_from(std::string name, const std::vector<Row>& rows) {
     RecordedDrone drone;
     drone.name = std::move(name);
+    drone.controls_m.reserve(rows.size());
+    drone.pieces.reserve(rows.size() - 1);
     for (std::size_t k = 0; k < rows.size(); ++k) {
         drone.controls_m.push_back(rows[k].position_m);
         if (k + 1 == rows.size()) break;
@@ -158,18 +181,20 @@ double shortest_interval_s(const RecordedShow& show) {
 Result<RecordedShow> read_csv_zip(std::span<const FileBytes> files) {
     if (files.size() != 1) return Error{ErrorCode::invalid_input, "csv: needs exactly one archive"};
     const std::string& archive = files.front().path;
-    auto entries = unzip_bytes(files.front().bytes);
+    const auto entries = ZipArchive::open(files.front().bytes);
     if (!entries) return Error{entries.error().code, archive + ": " + entries.error().message};
     RecordedShow show;
     show.format = "csv";
-    for (FileBytes& entry : *entries) {
-        const std::string name = drone_of(entry.path);
+    std::vector<Row> rows;
+    for (std::size_t entry = 0; entry < entries->size(); ++entry) {
+        const auto text = entries->unpacked(entry);
+        if (!text) return Error{text.error().code, archive + ": " + text.error().message};
+        const std::string name = drone_of(entries->path(entry));
         if (name.empty()) continue;
-        const auto rows = CsvFile(archive + ": " + entry.path, entry.bytes).rows();
-        if (!rows) return rows.error();
-        show.drones.push_back(drone_from(name, *rows));
-        show.duration_s = std::max(show.duration_s, seconds_from_ms(rows->back().time_ms));
-        std::string().swap(entry.bytes);
+        if (const Status read = CsvFile(archive + ": " + entries->path(entry), *text).read(rows); !read)
+            return read.error();
+        show.drones.push_back(drone_from(name, rows));
+        show.duration_s = std::max(show.duration_s, seconds_from_ms(rows.back().time_ms));
     }
     if (show.drones.empty()) return Error{ErrorCode::invalid_input, archive + ": holds no .csv file"};
     show.rounding.position_m = kHalfMillimetre_m;

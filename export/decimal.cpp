@@ -26,19 +26,19 @@ std::int64_t in_units(double value, int digits) {
 }
 
 void append_units(std::string& out, std::int64_t units, int digits) {
-    const std::int64_t power = power_of_ten(digits);
-    if (units < 0) out += '-';
-    const std::int64_t magnitude = units < 0 ? -units : units;
+    AEROGRAM_REQUIRE(digits >= 0 && digits <= 9, digits);
     std::array<char, 24> text{};
-    const char* end = std::to_chars(text.data(), text.data() + text.size(), magnitude / power).ptr;
-    out.append(static_cast<const char*>(text.data()), end);
-    if (digits == 0) return;
-    out += '.';
-    std::int64_t rest = magnitude % power;
-    for (std::int64_t place = power / 10; place > 0; place /= 10) {
-        out += static_cast<char>('0' + rest / place);
-        rest %= place;
-    }
+    std::size_t at = text.size();
+    const auto prepend = [&](char c) { text[--at] = c; };
+    std::uint64_t rest = static_cast<std::uint64_t>(units < 0 ? -units : units);
+    for (int place = 0; place < digits; ++place, rest /= 10) prepend(static_cast<char>('0' + rest % 10));
+    if (digits > 0) prepend('.');
+    do {
+        prepend(static_cast<char>('0' + rest % 10));
+        rest /= 10;
+    } while (rest > 0);
+    if (units < 0) prepend('-');
+    out.append(&text[at], text.size() - at);
 }
 
 void append_fixed(std::string& out, double value, int digits) {

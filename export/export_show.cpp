@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <numeric>
 #include <optional>
 
 #include "export/certificate_json.hpp"
@@ -130,15 +131,28 @@ std::optional<Error> first_error(const std::vector<Job>& jobs, const Run& run) {
     return std::nullopt;
 }
 
+/// Places in `jobs`, what takes longest first, so that no thread is left with it at the end.
+std::vector<std::size_t> longest_first(const std::vector<Job>& jobs) {
+    constexpr std::array<std::string_view, 4> kLongest{"csv", "skyc", "trajectories", "preview"};
+    std::vector<std::size_t> places(jobs.size());
+    std::iota(places.begin(), places.end(), std::size_t{0});
+    std::ranges::stable_sort(places, {}, [&](std::size_t i) {
+        return std::ranges::find(kLongest, jobs[i].format->name) - kLongest.begin();
+    });
+    return places;
+}
+
 /// Writes and checks all formats, several at a time; their order in the result is fixed.
 std::optional<Error> write_and_check(std::vector<Job>& jobs, const planner::FlightPlan& plan, const Seal& seal,
                                      const fs::path& folder, const Run& run) {
-    const Run inner{run.stop, {}, jobs.size() > 1 ? 1U : run.threads};
-    parallel_for(jobs.size(), run, "writing", [&](std::size_t i) { write_format(jobs[i], plan, seal, folder, inner); });
-    if (auto error = first_error(jobs, run)) return error;
-    parallel_for(jobs.size(), run, "checking", [&](std::size_t i) {
-        const Status checked = check_format(jobs[i], plan, seal, folder, inner);
-        if (!checked) jobs[i].error = checked.error();
+    const Run inner{run.stop, {}, run.threads};
+    const std::vector<std::size_t> order = longest_first(jobs);
+    parallel_for(jobs.size(), run, "exporting", [&](std::size_t i) {
+        Job& job = jobs[order[i]];
+        write_format(job, plan, seal, folder, inner);
+        if (job.error) return;
+        const Status checked = check_format(job, plan, seal, folder, inner);
+        if (!checked) job.error = checked.error();
     });
     return first_error(jobs, run);
 }

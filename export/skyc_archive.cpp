@@ -60,14 +60,30 @@ JsonNode SkycArchive::document(const std::string& entry) {
     return (found == nullptr ? *nothing_ : *found).root(*problem_);
 }
 
+/// The entry that a reference of a node leads to.
+std::string SkycArchive::entry_of(const JsonNode& holder, std::string_view reference) const {
+    const std::string_view path = reference.substr(0, reference.find('#'));
+    std::string entry = holder.file() == name_ ? "" : holder.file().substr(name_.size() + 2);
+    if (path.empty()) return entry;
+    const std::size_t slash = entry.rfind('/');
+    return joined(entry.substr(0, slash == std::string::npos ? 0 : slash + 1), path);
+}
+
+std::optional<std::string_view> SkycArchive::unparsed(const JsonNode& node) const {
+    const auto reference = node.is_object() ? node.find("$ref") : std::nullopt;
+    if (!reference) return std::nullopt;
+    const std::string place = reference->text();
+    if (place.empty() || place.find('#') != place.size() - 1) return std::nullopt;
+    const std::string entry = entry_of(node, place);
+    const auto text = texts_.find(entry);
+    if (text == texts_.end() || documents_.contains(entry)) return std::nullopt;
+    return text->second;
+}
+
 JsonNode SkycArchive::target(const JsonNode& holder, const std::string& reference) {
     const std::size_t hash = std::min(reference.find('#'), reference.size());
     const std::string_view pointer = std::string_view(reference).substr(std::min(hash + 1, reference.size()));
-    std::string entry = holder.file() == name_ ? "" : holder.file().substr(name_.size() + 2);
-    if (hash > 0) {
-        const std::size_t slash = entry.rfind('/');
-        entry = joined(entry.substr(0, slash == std::string::npos ? 0 : slash + 1), reference.substr(0, hash));
-    }
+    const std::string entry = entry_of(holder, reference);
     const JsonDocument* found = parsed(entry);
     if (found == nullptr) {
         holder.fail("$ref " + shown(reference) + ": no such entry");

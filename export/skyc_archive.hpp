@@ -1,6 +1,7 @@
 #pragma once
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,11 +25,15 @@ class SkycArchive {
     /// What a node stands for: itself, or where its $ref leads, at most kMostHops further (a cycle becomes the
     /// problem). Paths are relative to the entry that holds the reference.
     [[nodiscard]] JsonNode resolved(JsonNode node);
+    /// The text of the whole entry that a node refers to, where it was not parsed yet; for readers of plain entries
+    /// that need no document.
+    [[nodiscard]] std::optional<std::string_view> unparsed(const JsonNode& node) const;
     [[nodiscard]] JsonProblem& problem() { return *problem_; }
 
   private:
     SkycArchive() = default;
     [[nodiscard]] const JsonDocument* parsed(const std::string& entry);
+    [[nodiscard]] std::string entry_of(const JsonNode& holder, std::string_view reference) const;
     [[nodiscard]] JsonNode target(const JsonNode& holder, const std::string& reference);
 
     std::string name_;

@@ -201,12 +201,15 @@ Result<std::vector<std::string>> write(const FlightPlan& plan, const Seal& seal,
         const Part part = part_of(plan, number);
         auto trajectories = skyc_trajectories(plan, part.first, part.end, run);
         if (!trajectories) return trajectories.error();
-        std::vector<FileBytes> entries{{"show.json", show_json(plan, seal, part)}, {"cues.json", cues_json(plan.cues)}};
-        for (std::size_t i = part.first; i < part.end; ++i) {
+        std::vector<PackedEntry> entries(2 + 2 * trajectories->size());
+        entries[0] = packed_entry("show.json", show_json(plan, seal, part));
+        entries[1] = packed_entry("cues.json", cues_json(plan.cues));
+        parallel_for(trajectories->size(), run, "skyc", [&](std::size_t k) {
+            const std::size_t i = part.first + k;
             const std::string place = "drones/" + drone_name(i + 1, plan.drones()) + "/";
-            entries.push_back({place + "trajectory.json", std::move((*trajectories)[i - part.first])});
-            entries.push_back({place + "lights.json", lights_json(plan, i)});
-        }
+            entries[2 + 2 * k] = packed_entry(place + "trajectory.json", (*trajectories)[k]);
+            entries[3 + 2 * k] = packed_entry(place + "lights.json", lights_json(plan, i));
+        });
         if (run.stopped()) return stopped_error();
         files.push_back(file_of(part));
         if (const Status written = write_zip(folder / files.back(), entries); !written) return written.error();

@@ -12,13 +12,13 @@
 #include "export/skybrush_frame.hpp"
 #include "export/skyc.hpp"
 #include "export/skyc_archive.hpp"
+#include "export/skyc_trajectory.hpp"
 #include "geo/units.hpp"
 
 namespace aerogram::exporter {
 namespace {
 
-constexpr double kFarthest_m = 1e6;
-constexpr double kLongest_s = 86'400.0;
+constexpr double kFarthest_m = kFarthestSkyc_m, kLongest_s = kLongestSkyc_s;
 constexpr double kAny = 1e6;
 constexpr std::size_t kMostLightKeys = 10'000'000;
 constexpr double kHalfMillimetre_m = 0.0005;
@@ -149,7 +149,9 @@ class Reader {
         drone.name = name ? name->text() : drone_name(show_.drones.size() + 1, 1);
         if (const auto home = settings.find("home")) drone.home_m = from_skybrush(home->point(kFarthest_m));
         if (const auto land = settings.find("landAt")) drone.land_m = from_skybrush(land->point(kFarthest_m));
-        read_trajectory(in(settings, "trajectory"), drone);
+        const JsonNode trajectory = settings["trajectory"];
+        const auto plain = archive_.unparsed(trajectory);
+        if (!plain || !read_plain_trajectory(*plain, drone)) read_trajectory(archive_.resolved(trajectory), drone);
         if (problem().found()) return;
         show_.duration_s = std::max(show_.duration_s, drone.pieces.back().start_s + drone.pieces.back().duration_s);
         if (const auto lights = maybe(settings, "lights")) read_lights(*lights, drone);

@@ -1,9 +1,11 @@
 #pragma once
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "export/curve_fit.hpp"
+#include "export/record/recorded_show.hpp"
 #include "geo/run.hpp"
 #include "planner/motion/flight_plan.hpp"
 
@@ -17,5 +19,12 @@ namespace aerogram::exporter {
 /// fit_bound; stopped.
 Result<std::vector<std::string>> skyc_trajectories(const planner::FlightPlan& plan, std::size_t first, std::size_t end,
                                                    const Run& run);
+
+/// What our reader believes: coordinates and times, as numbers of the file.
+inline constexpr double kFarthestSkyc_m = 1e6, kLongestSkyc_s = 86'400.0;
+
+/// Reads a trajectory.json into a drone without pieces, when it is written just as skyc_trajectories writes; false when
+/// it is not, and the drone is as it was: then the careful reader must look.
+[[nodiscard]] bool read_plain_trajectory(std::string_view text, RecordedDrone& drone);
 
 }  // namespace aerogram::exporter

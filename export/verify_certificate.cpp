@@ -67,9 +67,13 @@ std::string wrong_encounter(const CertifiedAct& act, const RecordedShow& traject
 Result<Problems> problems_of_act(const CertifiedAct& act, const RecordedShow& trajectories, const Rules& rules,
                                  const Run& run) {
     Problems problems;
-    if (std::abs(act.required_separation_m - planned_separation_m(rules.limits)) > kNumeric) {
+    if (act.required_separation_m < planned_separation_m(rules.limits) - kNumeric) {  // more may be asked of an act
         problems.push_back("requires a separation of " + shown(act.required_separation_m) + " m; the limits require " +
                            shown(planned_separation_m(rules.limits)));
+    }
+    if (act.certified && act.min_separation_m && *act.min_separation_m < act.required_separation_m - kNumeric) {
+        problems.push_back("is certified with a separation of " + shown(*act.min_separation_m) + " m; it requires " +
+                           shown(act.required_separation_m));
     }
     if (act.plane.has_value() != rules.limits.plane.has_value())
         problems.push_back("does not say what planes do, or says it of copters");

@@ -1,18 +1,16 @@
 #include <zip.h>
 
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <utility>
 
-#include "export/files.hpp"
+#include "export/deflate.hpp"
 #include "export/zip.hpp"
 
 namespace aerogram::exporter {
 namespace {
 
-// 1980-01-01 00:00:00, the earliest date a zip can hold.
-constexpr zip_uint16_t kDosTime = 0, kDosDate = (0U << 9U) | (1U << 5U) | 1U;
-constexpr zip_uint32_t kRegularFile = 0100644U << 16U;  // Unix mode, in the upper half
-constexpr zip_uint32_t kDeflateLevel = 4;               ///< a third of the time of level 6, files 4 % larger
 constexpr std::size_t kBombWorthy = std::size_t{1} << 20;
 
 /// zip_error_t that ends itself.
@@ -51,31 +49,6 @@ Archive open_archive(const Source& source, int flags, ZipError& error) {
     return archive;
 }
 
-bool add(zip_t* archive, const FileBytes& entry) {
-    zip_source_t* data = zip_source_buffer(archive, entry.bytes.data(), entry.bytes.size(), 0);
-    if (data == nullptr) return false;
-    const zip_int64_t index = zip_file_add(archive, entry.path.c_str(), data, ZIP_FL_ENC_UTF_8);
-    if (index < 0) {
-        zip_source_free(data);
-        return false;
-    }
-    const auto i = static_cast<zip_uint64_t>(index);
-    return zip_set_file_compression(archive, i, ZIP_CM_DEFLATE, kDeflateLevel) == 0 &&
-           zip_file_set_dostime(archive, i, kDosTime, kDosDate, 0) == 0 &&
-           zip_file_set_external_attributes(archive, i, 0, ZIP_OPSYS_UNIX, kRegularFile) == 0;
-}
-
-Result<std::string> contents(zip_source_t* source) {
-    zip_stat_t stat{};
-    if (zip_source_stat(source, &stat) != 0 || zip_source_open(source) != 0)
-        return zip_failure(zip_source_error(source));
-    std::string bytes(stat.size, '\0');
-    const zip_int64_t got = zip_source_read(source, bytes.data(), bytes.size());
-    zip_source_close(source);
-    if (got != static_cast<zip_int64_t>(bytes.size())) return zip_failure(zip_source_error(source));
-    return bytes;
-}
-
 /// Why a name cannot be taken from an archive, or empty.
 std::string bad_name(std::string_view name) {
     if (name.empty()) return "an entry without a name";
@@ -89,7 +62,9 @@ std::string bad_name(std::string_view name) {
 struct Listed {
     zip_uint64_t index = 0;
     std::string name;
-    std::size_t size = 0;
+    std::size_t size = 0, packed = 0;
+    std::uint32_t crc = 0;
+    std::uint16_t method = ZIP_CM_STORE;
 };
 
 /// Everything that can be refused before anything is unpacked.
@@ -102,7 +77,8 @@ Result<std::vector<Listed>> list_entries(zip_t* archive, std::size_t packed_byte
     std::size_t total = 0;
     for (zip_uint64_t i = 0; i < static_cast<zip_uint64_t>(count); ++i) {
         zip_stat_t stat{};
-        constexpr zip_uint64_t kNeeded = ZIP_STAT_NAME | ZIP_STAT_SIZE | ZIP_STAT_ENCRYPTION_METHOD;
+        constexpr zip_uint64_t kNeeded = ZIP_STAT_NAME | ZIP_STAT_SIZE | ZIP_STAT_COMP_SIZE | ZIP_STAT_CRC |
+                                         ZIP_STAT_COMP_METHOD | ZIP_STAT_ENCRYPTION_METHOD;
         if (zip_stat_index(archive, i, 0, &stat) != 0 || (stat.valid & kNeeded) != kNeeded) {
             return damaged("entry " + std::to_string(i + 1) + " cannot be read");
         }
@@ -114,7 +90,8 @@ Result<std::vector<Listed>> list_entries(zip_t* archive, std::size_t packed_byte
             return damaged("entry \"" + name + "\" is too large (" + std::to_string(stat.size) + " bytes)");
         }
         total += stat.size;
-        if (name.back() != '/') entries.push_back({i, name, stat.size});  // folders hold nothing
+        if (name.back() == '/') continue;  // folders hold nothing
+        entries.push_back({i, name, stat.size, stat.comp_size, stat.crc, stat.comp_method});
     }
     if (total > kBombWorthy && static_cast<double>(total) > limits.ratio * static_cast<double>(packed_bytes)) {
         return damaged("would unpack to " + std::to_string(total) + " bytes, more than a sound archive can");
@@ -122,62 +99,85 @@ Result<std::vector<Listed>> list_entries(zip_t* archive, std::size_t packed_byte
     return entries;
 }
 
-Result<std::string> unpack(zip_t* archive, const Listed& entry) {
-    const std::unique_ptr<zip_file_t, CloseEntry> file(zip_fopen_index(archive, entry.index, 0));
-    const auto bad = [&] { return damaged("entry \"" + entry.name + "\" is damaged"); };
-    if (!file) return bad();
-    std::string bytes(entry.size, '\0');
+/// Up to `size` bytes of an entry; absent when it has another number of them.
+std::optional<std::string> stored_bytes(zip_t* archive, const Listed& entry, zip_flags_t flags, std::size_t size) {
+    const std::unique_ptr<zip_file_t, CloseEntry> file(zip_fopen_index(archive, entry.index, flags));
+    if (!file) return std::nullopt;
+    std::string bytes(size, '\0');
     std::size_t at = 0;
     while (at < bytes.size()) {
         const zip_int64_t got = zip_fread(file.get(), bytes.data() + at, bytes.size() - at);
-        if (got <= 0) return bad();
+        if (got <= 0) return std::nullopt;
         at += static_cast<std::size_t>(got);
     }
     char beyond = 0;  // reaching the end is what makes libzip compare the CRC
-    if (zip_fread(file.get(), &beyond, 1) != 0) return bad();
+    if (zip_fread(file.get(), &beyond, 1) != 0) return std::nullopt;
     return bytes;
 }
 
 }  // namespace
 
-Result<std::string> zip_bytes(std::span<const FileBytes> entries) {
-    if (entries.empty()) return damaged("an archive needs entries");
+struct ZipArchive::Impl {
+    Source source;
+    Archive archive;
+    std::vector<Listed> entries;
+    std::mutex mutex;  ///< libzip's archives belong to one thread at a time
+};
+
+ZipArchive::ZipArchive(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {
+}
+ZipArchive::ZipArchive(ZipArchive&&) noexcept = default;
+ZipArchive& ZipArchive::operator=(ZipArchive&&) noexcept = default;
+ZipArchive::~ZipArchive() = default;
+
+Result<ZipArchive> ZipArchive::open(std::string_view archive_bytes, const UnzipLimits& limits) {
+    if (archive_bytes.empty()) return damaged("an empty file is no archive");
     ZipError error;
-    const Source source(zip_source_buffer_create(nullptr, 0, 0, &error.error));
-    if (!source) return zip_failure(&error.error);
-    Archive archive = open_archive(source, ZIP_CREATE | ZIP_TRUNCATE, error);
-    if (!archive) return zip_failure(&error.error);
-    for (const FileBytes& entry : entries) {
-        if (!add(archive.get(), entry)) return zip_failure(zip_get_error(archive.get()));
+    auto impl = std::make_unique<Impl>();
+    impl->source.reset(zip_source_buffer_create(archive_bytes.data(), archive_bytes.size(), 0, &error.error));
+    if (!impl->source) return zip_failure(&error.error);
+    impl->archive = open_archive(impl->source, ZIP_RDONLY | ZIP_CHECKCONS, error);
+    if (!impl->archive && zip_error_code_zip(&error.error) == ZIP_ER_EXISTS)
+        return damaged("two entries have the same name");
+    if (!impl->archive) return damaged(std::string("no sound archive: ") + zip_error_strerror(&error.error));
+    auto entries = list_entries(impl->archive.get(), archive_bytes.size(), limits);
+    if (!entries) return entries.error();
+    impl->entries = std::move(*entries);
+    return ZipArchive(std::move(impl));
+}
+
+std::size_t ZipArchive::size() const {
+    return impl_->entries.size();
+}
+
+const std::string& ZipArchive::path(std::size_t entry) const {
+    return impl_->entries.at(entry).name;
+}
+
+Result<std::string> ZipArchive::unpacked(std::size_t entry) const {
+    const Listed& listed = impl_->entries.at(entry);
+    const bool quick = listed.method == ZIP_CM_DEFLATE;
+    std::optional<std::string> bytes;
+    {
+        const std::lock_guard lock(impl_->mutex);
+        bytes = stored_bytes(impl_->archive.get(), listed, quick ? ZIP_FL_COMPRESSED : 0,
+                             quick ? listed.packed : listed.size);
     }
-    if (zip_close(archive.get()) != 0) return zip_failure(zip_get_error(archive.get()));
-    (void)archive.release();  // closed
-    return contents(source.get());
+    if (bytes && quick) bytes = inflated(*bytes, listed.size);
+    if (!bytes || zip_crc(*bytes) != listed.crc) return damaged("entry \"" + listed.name + "\" is damaged");
+    return std::move(*bytes);
 }
 
 Result<std::vector<FileBytes>> unzip_bytes(std::string_view archive_bytes, const UnzipLimits& limits) {
-    if (archive_bytes.empty()) return damaged("an empty file is no archive");
-    ZipError error;
-    const Source source(zip_source_buffer_create(archive_bytes.data(), archive_bytes.size(), 0, &error.error));
-    if (!source) return zip_failure(&error.error);
-    const Archive archive = open_archive(source, ZIP_RDONLY | ZIP_CHECKCONS, error);
-    if (!archive && zip_error_code_zip(&error.error) == ZIP_ER_EXISTS) return damaged("two entries have the same name");
-    if (!archive) return damaged(std::string("no sound archive: ") + zip_error_strerror(&error.error));
-    const auto entries = list_entries(archive.get(), archive_bytes.size(), limits);
-    if (!entries) return entries.error();
+    const auto archive = ZipArchive::open(archive_bytes, limits);
+    if (!archive) return archive.error();
     std::vector<FileBytes> files;
-    for (const Listed& entry : *entries) {
-        Result<std::string> bytes = unpack(archive.get(), entry);
+    for (std::size_t entry = 0; entry < archive->size(); ++entry) {
+        Result<std::string> bytes = archive->unpacked(entry);
         if (!bytes) return bytes.error();
-        files.push_back({entry.name, std::move(*bytes)});
+        files.push_back({archive->path(entry), std::move(*bytes)});
     }
     return files;
-}
-
-Status write_zip(const std::filesystem::path& file, std::span<const FileBytes> entries) {
-    const auto archive = zip_bytes(entries);
-    if (!archive) return archive.error();
-    return write_file(file, *archive);
 }
 
 }  // namespace aerogram::exporter

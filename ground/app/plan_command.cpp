@@ -79,13 +79,23 @@ std::string limits_lines(const FlightPlan& plan) {
            (fence_m ? ", " + decimals(*fence_m, 1) + " m inside the geofence" : std::string()) + "\n";
 }
 
+/// Why `auto` flies as it does, a line an act.
+std::string choice_lines(const FlightPlan& plan) {
+    std::string lines;
+    for (const ActCertificate& act : plan.certificate.acts) {
+        if (!act.chosen_because.empty())
+            lines += "chosen         " + act.name + ", " + act.method + ": " + act.chosen_because + "\n";
+    }
+    return lines;
+}
+
 std::string summary(const FlightPlan& plan, const exporter::ExportedShow& shown, const std::filesystem::path& out) {
     std::ostringstream text;
     text << plan.name << ": " << counted(plan.drones(), "drone") << ", " << counted(plan.keyframes.size(), "keyframe")
          << ", " << decimals(seconds_from_ms(plan.duration_ms()), 1) << " s\n";
     text << (shown.certified ? "certified      every act holds every limit in continuous time\n"
                              : "NOT CERTIFIED  do not fly; see certificate.json\n");
-    text << separation_line(plan) << limits_lines(plan);
+    text << separation_line(plan) << limits_lines(plan) << choice_lines(plan);
     std::string written, skipped;
     for (const auto& format : shown.formats) {
         if (format.skipped.empty()) {

@@ -21,6 +21,7 @@ SEAMS = (
     (r"CGAL/", "cgal"), (r"boost/", "cgal"), (r"tetgen\.h", "tetgen"), (r"cholmod\.h|suitesparse/", "cholmod"),
     (r"cblas\.h|lapack\.h|lapacke\.h|openblas", "lapack"), (r"GeographicLib/", "geographiclib"), (r"modbus", "modbus"),
     (r"toml\+\+/|toml\.hpp", "tomlplusplus"), (r"nlohmann/", "json"), (r"zip\.h|zipconf\.h", "libzip"),
+    (r"libdeflate\.h", "libdeflate"),
     (r"openssl/", "openssl"), (r"hersheyfont\.h", "hershey"), (r"CLI/", "cli11"),
     (r"ft2build\.h|freetype/", "freetype"), (r"hb[\w-]*\.h", "harfbuzz"), (r"fontconfig/", "fontconfig"),
     (r"png(conf)?\.h", "libpng"), (r"jpeglib\.h|jerror\.h", "libjpeg"),

@@ -16,15 +16,20 @@ import zipfile
 class Skyc:
     """A Skybrush show: JSON files in a zip, joined by $ref."""
 
-    def __init__(self, path):
-        self.zip = zipfile.ZipFile(path)
-        assert self.zip.testzip() is None
-        self.show = self.load("show.json")
-        assert self.show["version"] == 1
-        self.drones = [self.resolved(d)["settings"] for d in self.show["swarm"]["drones"]]
+    def __init__(self, *paths):
+        """@param paths  the file, or the files show-1.skyc, show-2.skyc... of a large fleet in order."""
+        parts = [zipfile.ZipFile(path) for path in paths]
+        assert all(part.testzip() is None for part in parts)
+        self.zip_of = {name: part for part in parts for name in part.namelist()}
+        shows = [json.loads(part.read("show.json")) for part in parts]
+        for number, show in enumerate(shows, 1):
+            assert show["version"] == 1 and show["meta"]["id"] == shows[0]["meta"]["id"]
+            assert show["meta"]["aerogram"].get("part", [1, 1]) == [number, len(shows)]
+        self.show = shows[0]
+        self.drones = [self.resolved(d)["settings"] for show in shows for d in show["swarm"]["drones"]]
 
     def load(self, name):
-        return json.loads(self.zip.read(name))
+        return json.loads(self.zip_of[name].read(name))
 
     def resolved(self, value):
         while isinstance(value, dict) and "$ref" in value:
@@ -188,8 +193,23 @@ def check_waypoints(path, settings, points, ground):
     check_places(numbers[0], numbers[1:], settings, points, ground, path.name)
 
 
+def skyc_of(folder):
+    """The folder's Skybrush show, whole; None where the manifest says why there is none."""
+    paths = [folder / "show.skyc"]
+    if not paths[0].exists():
+        paths = [folder / f"show-{number}.skyc" for number in range(1, 1 + len(list(folder.glob("show-*.skyc"))))]
+    if paths:
+        return Skyc(*paths)
+    manifest = json.loads((folder / "manifest.json").read_text())
+    assert any(f["name"] == "skyc" and f["skipped"] for f in manifest["formats"]), manifest["formats"]
+    return None
+
+
 def main(folder):
-    skyc = Skyc(folder / "show.skyc")
+    skyc = skyc_of(folder)
+    if skyc is None:
+        print(f"{folder}: no skyc to compare with")
+        return
     assert len(skyc.show["meta"]["id"]) == 64
     for settings in skyc.drones:
         points = skyc.trajectory(settings)

@@ -209,14 +209,14 @@ TEST(ExportShow, StopsWhenAsked) {
     std::vector<std::string> stages;
     run.progress = [&](std::string_view stage, double) {
         stages.emplace_back(stage);
-        if (stage == "checking") source.request_stop();
+        if (stage == "exporting") source.request_stop();
     };
     const auto exported = export_show(fixed::show(), scratch.path() / "show", kExact, false, run);
     ASSERT_FALSE(exported.ok());
     EXPECT_EQ(exported.error().code, ErrorCode::stopped);
     EXPECT_TRUE(contents(scratch.path()).empty());
-    EXPECT_EQ(stages.front(), "writing");
-    EXPECT_EQ(stages.back(), "checking");
+    EXPECT_EQ(stages.front(), "exporting");
+    EXPECT_EQ(stages.back(), "exporting");
 }
 
 TEST(ExportShow, ForeignFoldersAreKept) {
