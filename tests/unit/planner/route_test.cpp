@@ -31,7 +31,8 @@ TEST(Route, FleetIsLiftedStraightAboveItsPads) {
     for (std::size_t d = 0; d < 8; ++d) {
         EXPECT_EQ(Vec2(route.layers.lifted_m[d]), Vec2(mission.fleet.pads_m[d]));
         EXPECT_GT(route.layers.lifted_m[d].z - mission.fleet.pads_m[d].z, mission.limits.min_navigation_altitude_m);
-        EXPECT_LT(route.layers.lifted_m[d].z - mission.fleet.pads_m[d].z, mission.limits.min_navigation_altitude_m + 0.2);
+        EXPECT_LT(route.layers.lifted_m[d].z - mission.fleet.pads_m[d].z,
+                  mission.limits.min_navigation_altitude_m + 0.2);
     }
 }
 
