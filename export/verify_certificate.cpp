@@ -12,6 +12,17 @@
 namespace aerogram::exporter {
 namespace {
 
+/// An act is certified when its bound, which is found by halving, is this near to what it requires: numbers written by
+/// a planner that stops there are no lie.
+constexpr double kCertified_m = 1e-5;
+
+/// To a micrometre, for two numbers that may differ by as little.
+std::string exact(double value_m) {
+    std::array<char, 400> text{};
+    std::snprintf(text.data(), text.size(), "%.6f", value_m);
+    return text.data();
+}
+
 std::string shown(double value) {
     std::array<char, 40> text{};
     std::snprintf(text.data(), text.size(), "%.6g", value);
@@ -71,9 +82,10 @@ Result<Problems> problems_of_act(const CertifiedAct& act, const RecordedShow& tr
         problems.push_back("requires a separation of " + shown(act.required_separation_m) + " m; the limits require " +
                            shown(planned_separation_m(rules.limits)));
     }
-    if (act.certified && act.min_separation_m && *act.min_separation_m < act.required_separation_m - kNumeric) {
-        problems.push_back("is certified with a separation of " + shown(*act.min_separation_m) + " m; it requires " +
-                           shown(act.required_separation_m));
+    if (act.certified && act.min_separation_m &&
+        *act.min_separation_m < act.required_separation_m - kCertified_m - kNumeric) {
+        problems.push_back("is certified with a separation of " + exact(*act.min_separation_m) + " m; it requires " +
+                           exact(act.required_separation_m));
     }
     if (act.plane.has_value() != rules.limits.plane.has_value())
         problems.push_back("does not say what planes do, or says it of copters");

@@ -108,6 +108,19 @@ std::optional<Vec3> landing_place(const RecordedDrone& drone) {
     return drone.land_m ? drone.land_m : ground_at(last_position(drone));
 }
 
+Places places_of(const RecordedDrone& drone) {
+    return {home_place(drone), landing_place(drone)};
+}
+
+bool too_close(const Places& a, const Places& b, double least_m) {
+    for (const std::optional<Vec3>& p : a) {
+        for (const std::optional<Vec3>& q : b) {
+            if (p && q && std::hypot(p->x - q->x, p->y - q->y) < least_m) return true;
+        }
+    }
+    return false;
+}
+
 std::vector<Interval> grounded_intervals(const RecordedDrone& drone) {
     return inside_either(drone, kOnGround_m, kOnGround_m);
 }

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -20,6 +21,10 @@ inline constexpr double kOnGround_m = 0.05;
 /// file's rounding and fit may move a point on the ground plane is added.
 inline constexpr double kStraightAbove_m = 0.01;
 
+/// Drones with places closer to each other than this in plan view, metres, are never excused: there is no room for two.
+/// It is the least distance of pads in a mission.
+inline constexpr double kClosestPads_m = 0.2;
+
 /// Where a drone may stand. What is not stated is the point of z = 0, the ground of a show without pads, under the
 /// first (the last) position, provided that is within kOnGround_m of it; absent otherwise: who hovers there is not
 /// excused.
@@ -40,11 +45,17 @@ inline constexpr double kStraightAbove_m = 0.01;
 /// What counts for separation: a pair is excused while one of the two stands on its own pad and the other stands on, or
 /// is straight above, its own. Where pads are as far apart as drones must be, such a pair keeps its distance anyway,
 /// but for kStraightAbove_m; on tighter pads it is how drones start and land in layers. Whoever comes sideways is
-/// above no pad of its own and is not excused.
+/// above no pad of its own and is not excused. Pads that are too_close excuse nobody.
 enum class Stance : std::uint8_t { flying, above_pad, on_pad };
 [[nodiscard]] constexpr bool excused(Stance a, Stance b) {
     return (a == Stance::on_pad && b != Stance::flying) || (b == Stance::on_pad && a != Stance::flying);
 }
+
+/// A drone's home and landing place, where it has them.
+using Places = std::array<std::optional<Vec3>, 2>;
+[[nodiscard]] Places places_of(const RecordedDrone& drone);
+/// Whether a place of one is less than `least_m` from one of the other in plan view.
+[[nodiscard]] bool too_close(const Places& a, const Places& b, double least_m);
 
 /// An interval in which a drone is not flying freely.
 struct Stay {

@@ -52,7 +52,8 @@ struct JudgeAgainst {
 ///  - speed_horizontal, speed_up, speed_down, m/s; acceleration, m/s²;
 ///  - of planes, in the place of the three speeds: airspeed_min, airspeed_max, climb, sink, m/s; turn_rate_dps;
 ///  - velocity_jump, m/s: where pieces meet, and at the ends, where a copter must be at rest; position_jump, m;
-///  - altitude_max, m above own home; altitude_min_navigation, horizontal metres flown in one stay below that altitude;
+///  - altitude_max, m above own home; altitude_min, m above own home (or the landing place where that is lower), at
+///    least 0, to 0.05 m; altitude_min_navigation, horizontal metres flown in one stay below that altitude;
 ///  - geofence, audience, obstacles: margin, m, at least;
 ///  - pads, m, of copters: from home at the start, from the landing place at the end; endurance, s.
 ///

@@ -39,8 +39,8 @@ struct Rules {
 /// speed_horizontal, speed_up, speed_down; acceleration and velocity_jump (m/s, where pieces meet, and at the show's
 /// two ends where a drone must be at rest); position_jump.
 [[nodiscard]] std::vector<Finding> motion_findings(const RecordedShow& show, const Rules& rules, const Run& run);
-/// altitude_max; altitude_min_navigation: the horizontal way, metres, flown in one stay below the lowest altitude at
-/// which horizontal motion is allowed.
+/// altitude_max; altitude_min: the lowest altitude, nobody flies below the ground; altitude_min_navigation: the
+/// horizontal way, metres, flown in one stay below the lowest altitude at which horizontal motion is allowed.
 [[nodiscard]] std::vector<Finding> altitude_findings(const RecordedShow& show, const Rules& rules, const Run& run);
 /// geofence, audience, obstacles: smallest margins, metres, each where the airspace has any.
 [[nodiscard]] std::vector<Finding> airspace_findings(const RecordedShow& show, const Rules& rules, const Run& run);

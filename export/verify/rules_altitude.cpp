@@ -4,7 +4,14 @@
 namespace aerogram::exporter {
 namespace {
 
-constexpr double kShortest_s = 1e-5;  ///< a crossing of an altitude is found this exactly
+constexpr double kShortest_s = 1e-5;     ///< a crossing of an altitude is found this exactly
+constexpr double kBelowGround_m = 0.05;  ///< what standing, taking off and landing may be below the ground
+
+/// From where the lowest altitude counts: home, or a landing place that is stated and lower.
+Vec3 lowest_ground(const RecordedDrone& drone, const std::optional<geo::ShowFrame>& frame) {
+    const Vec3 home = home_of(drone);
+    return drone.land_m && Altitude(frame, home).of(*drone.land_m) < 0.0 ? *drone.land_m : home;
+}
 
 /// Follows one drone and measures how far it gets, horizontally, from where each stay below a threshold began.
 class LowStays {
@@ -71,6 +78,19 @@ std::vector<Finding> altitude_findings(const RecordedShow& show, const Rules& ru
                     minimise(timed(drone, piece), Tolerance{}, of, bound, worst);
             }
         });
+    const FleetWorst lowest =
+        worst_of_fleet(show.drones, run, "verifying lowest altitudes", [&](const RecordedDrone& drone, Worst& worst) {
+            const Altitude altitude(rules.frame, lowest_ground(drone, rules.frame));
+            const auto of = [&](const Vec3& p) { return altitude.of(p); };
+            const auto bound = [&](const Bezier& curve) {
+                const double rough = altitude.rough(curve.controls()).low;
+                return rough >= worst.bound ? rough : altitude.range(curve).low;
+            };
+            for (const Piece& piece : drone.pieces) {
+                if (altitude.rough(controls_of(drone, piece)).low < worst.bound)
+                    minimise(timed(drone, piece), Tolerance{}, of, bound, worst);
+            }
+        });
     const double threshold_m = rules.limits.min_navigation_altitude_m - rules.axis_m() - kAltitude_m - kNumeric;
     const FleetWorst low =
         worst_of_fleet(show.drones, run, "verifying low flight", [&](const RecordedDrone& drone, Worst& worst) {
@@ -78,6 +98,8 @@ std::vector<Finding> altitude_findings(const RecordedShow& show, const Rules& ru
             LowStays(altitude, threshold_m, worst).follow(drone);
         });
     std::vector<Finding> found = at_most("altitude_max", rules.limits.ceiling_m, rules.axis_m() + kAltitude_m, highest);
+    for (Finding& finding : at_least("altitude_min", 0.0, kBelowGround_m + rules.axis_m(), lowest))
+        found.push_back(std::move(finding));
     for (Finding& finding : at_most("altitude_min_navigation", 0.0, 2.0 * rules.plane_m(), low))
         found.push_back(std::move(finding));
     return found;

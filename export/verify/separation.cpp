@@ -78,12 +78,12 @@ Bezier stretch_curve(const Slab& slab, const Stretch& stretch, double begin_s, d
     return restricted(curve, (begin_s - stretch.begin_s) / duration_s, (end_s - stretch.begin_s) / duration_s);
 }
 
-void bound_pair(const Slab& slab, Pair pair, Best& best) {
+void bound_pair(const Timelines& shows, const Slab& slab, Pair pair, Best& best) {
     const auto first = slab.of(pair.first), second = slab.of(pair.second);
     for (std::size_t i = 0, j = 0; i < first.size() && j < second.size();) {
         const Stretch &a = first[i], &b = second[j];
         const double begin_s = std::max(a.begin_s, b.begin_s), end_s = std::min(a.end_s, b.end_s);
-        if (!excused(a.stance, b.stance) && end_s > begin_s) {
+        if (end_s > begin_s && !shows.excuse(pair.first, a.stance, pair.second, b.stance)) {
             const std::size_t degree = std::max(a.degree, b.degree);
             Bezier difference = elevated(stretch_curve(slab, a, begin_s, end_s), degree);
             const Bezier other = elevated(stretch_curve(slab, b, begin_s, end_s), degree);
@@ -120,7 +120,7 @@ struct Search {
     }
 
     bool look_at(const Slab& slab, Pair pair) {
-        if (excused(slab.stance[pair.first], slab.stance[pair.second])) return true;
+        if (shows.excuse(pair.first, slab.stance[pair.first], pair.second, slab.stance[pair.second])) return true;
         const auto a = slab.of(pair.first), b = slab.of(pair.second);
         if (a.size() == 1 && b.size() == 1 && a[0].degree == b[0].degree) {
             const std::span<const Vec3> controls(slab.controls_m);
@@ -131,7 +131,7 @@ struct Search {
         } else if (slab.boxes[pair.first].gap(slab.boxes[pair.second]) >= best.lower_m) {
             return true;
         }
-        bound_pair(slab, pair, best);
+        bound_pair(shows, slab, pair, best);
         return goes_on();
     }
 

@@ -8,6 +8,7 @@ namespace aerogram::exporter {
 namespace {
 
 constexpr double kForever = std::numeric_limits<double>::infinity();
+constexpr double kRoundoff_m = 1e-6;  ///< of the distance of two pads
 constexpr std::size_t kDronesATask = 64;
 
 /// One drone on its way through time: hands over each polynomial on its own stretch, in order.
@@ -84,10 +85,19 @@ Timelines timelines(const RecordedShow& show, double downwash, const Run& run) {
     AEROGRAM_REQUIRE(!show.drones.empty());
     const std::size_t n = show.drones.size();
     const double beside_m = kStraightAbove_m + std::sqrt(2.0) * show.rounding.position_m + show.rounding.fit_m;
-    Timelines all{show.drones, std::vector<std::vector<Stay>>(n), downwash, kForever, -kForever};
+    const double rounding_m = 2.0 * std::sqrt(2.0) * show.rounding.position_m + kRoundoff_m;
+    Timelines all{show.drones,
+                  std::vector<std::vector<Stay>>(n),
+                  std::vector<Places>(n),
+                  kClosestPads_m - rounding_m,
+                  downwash,
+                  kForever,
+                  -kForever};
     parallel_for((n + kDronesATask - 1) / kDronesATask, Run{run.stop, {}, run.threads}, "", [&](std::size_t task) {
-        for (std::size_t d = task * kDronesATask; d < std::min(n, (task + 1) * kDronesATask); ++d)
+        for (std::size_t d = task * kDronesATask; d < std::min(n, (task + 1) * kDronesATask); ++d) {
             all.stays[d] = stays(show.drones[d], beside_m);
+            all.places[d] = places_of(show.drones[d]);
+        }
     });
     for (const RecordedDrone& drone : show.drones) {
         all.begin_s = std::min(all.begin_s, drone.pieces.front().start_s);

@@ -20,9 +20,16 @@ struct Box {
 /// What all slabs of one show share.
 struct Timelines {
     std::span<const RecordedDrone> drones;
-    std::vector<std::vector<Stay>> stays;  ///< one list a drone
+    std::vector<std::vector<Stay>> stays;    ///< one list a drone
+    std::vector<Places> places;              ///< one a drone
+    double closest_pads_m = kClosestPads_m;  ///< less what rounding may take from it
     double downwash = 1.0;
     double begin_s = 0.0, end_s = 0.0;  ///< first start and last end of all pieces
+
+    /// Whether two drones that stand so are excused from each other.
+    [[nodiscard]] bool excuse(std::size_t i, Stance a, std::size_t j, Stance b) const {
+        return excused(a, b) && !too_close(places[i], places[j], closest_pads_m);
+    }
 };
 /// @param show  well-formed, at least one drone; must outlive the result.
 [[nodiscard]] Timelines timelines(const RecordedShow& show, double downwash, const Run& run);

@@ -224,6 +224,13 @@ TEST(VerifyFolder, CertificateMayNotClaimMoreThanTheTrajectoriesHave) {
            [](ActCertificate& c) { c.required_separation_m = 1.5; });
     EXPECT_THAT(problems_of_certificate(1, [](ActCertificate& c) { c.separation.lower_bound_m += 0.1; }),
                 ElementsAre(HasSubstr("certificate.json: act \"to A\" claims a separation of ")));
+    // The planner certifies to 1e-5 m.
+    EXPECT_THAT(problems_of_certificate(
+                    1, [](ActCertificate& c) { c.separation.lower_bound_m = c.required_separation_m - 0.9e-5; }),
+                IsEmpty());
+    EXPECT_THAT(problems_of_certificate(
+                    1, [](ActCertificate& c) { c.separation.lower_bound_m = c.required_separation_m - 2e-5; }),
+                ElementsAre(HasSubstr("is certified with a separation of 1.549980 m; it requires 1.550000")));
     // Milder than the truth is no lie.
     EXPECT_THAT(problems_of_certificate(3,
                                         [](ActCertificate& c) {

@@ -70,7 +70,7 @@ TEST(Judge, LegalShowHoldsEveryRuleThatApplies) {
     for (const Finding& each : judgement.findings) rules.push_back(each.rule);
     EXPECT_THAT(rules,
                 ElementsAre("separation", "speed_horizontal", "speed_up", "speed_down", "acceleration", "velocity_jump",
-                            "position_jump", "altitude_max", "altitude_min_navigation", "pads"));
+                            "position_jump", "altitude_max", "altitude_min", "altitude_min_navigation", "pads"));
     EXPECT_NEAR(finding(judgement, "speed_horizontal").worst, kPeakSpeed * 2.0, 2e-6);
     EXPECT_NEAR(finding(judgement, "speed_horizontal").time_s.value(), 21.0, 1e-3);
     EXPECT_NEAR(finding(judgement, "speed_up").worst, kPeakSpeed * 20.0 / 16.0, 2e-6);
@@ -250,6 +250,48 @@ TEST(Judge, AltitudesAreJudgedToAMillimetre) {
     show.origin = frame.origin();
     EXPECT_TRUE(judged(show, limits({.min_navigation_altitude_m = 0.0, .ceiling_m = 20.0})).held());
     EXPECT_TRUE(judged(show, limits({.min_navigation_altitude_m = 20.0})).held());
+}
+
+// Nothing once looked below: a drone could fly through the ground.
+TEST(Judge, NobodyFliesBelowTheGround) {
+    const auto dipping = [](double depth_m) {
+        RecordedDrone drone;
+        add_smooth(drone, 10.0, {0, 0, 3}, {0, 0, 13});
+        add_piece(drone, 20.0, {{0, 0, 13}, {0, 0, 3.0 - 10.0 - 2.0 * depth_m}, {0, 0, 13}});  // lowest in its middle
+        add_smooth(drone, 10.0, {0, 0, 13}, {0, 0, 3});
+        drone.home_m = drone.land_m = Vec3{0, 0, 3};
+        return show_of({flight({20, 20, 0}), drone});
+    };
+    const Finding fine = finding(judged(legal()), "altitude_min");
+    EXPECT_TRUE(fine.held);
+    EXPECT_NEAR(fine.worst, 0.0, 2e-6);
+    EXPECT_EQ(fine.limit, 0.0);
+    EXPECT_EQ(fine.allowance, 0.05);
+
+    RecordedShow show = dipping(1.0);
+    const Finding deep = finding(judged(show), "altitude_min");
+    EXPECT_FALSE(deep.held);
+    EXPECT_NEAR(deep.worst, -1.0, 2e-6);
+    EXPECT_LE(deep.worst, -1.0);
+    EXPECT_THAT(deep.drones, ElementsAre(2U));
+    EXPECT_NEAR(deep.time_s.value(), 20.0, 0.01);
+    show.origin = geo::ShowOrigin{{35.0, 139.0, 40.0}, 20.0, {}};
+    EXPECT_NEAR(finding(judged(show), "altitude_min").worst, -1.0, 2e-6);
+    EXPECT_FALSE(finding(judged(show), "altitude_min").held);
+
+    EXPECT_TRUE(finding(judged(dipping(0.049)), "altitude_min").held);
+    show = dipping(0.06);
+    EXPECT_FALSE(finding(judged(show), "altitude_min").held);
+    show.rounding.position_m = 0.02;
+    EXPECT_TRUE(finding(judged(show), "altitude_min").held);
+}
+
+TEST(Judge, LandingPlacesMayBeLowerThanHome) {
+    RecordedShow show = show_of({polyline(10.0, {{0, 0, 3}, {0, 0, 23}, {9, 0, 23}, {9, 0, 0}})});
+    show.drones[0].home_m = Vec3{0, 0, 3};
+    EXPECT_NEAR(finding(judged(show), "altitude_min").worst, -3.0, 2e-6);
+    show.drones[0].land_m = Vec3{9, 0, 0};
+    EXPECT_TRUE(finding(judged(show), "altitude_min").held);
 }
 
 TEST(Judge, WithoutAStatedHomeAltitudesCountFromZero) {

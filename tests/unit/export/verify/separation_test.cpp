@@ -147,6 +147,25 @@ TEST(VerifySeparation, StraightAboveItsPadOneIsExcusedBesideOneThatStands) {
     EXPECT_EQ(separation(show).lower_bound_m, 10.0);
 }
 
+// A drone that rose out of another one was once excused, because both were at home.
+TEST(VerifySeparation, TwoOnOnePadAreNotExcused) {
+    const RecordedDrone stands = polyline(5.0, {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}});
+    const auto beside = [&](double apart_m) {
+        const Vec3 home{apart_m, 0, 0};
+        return show_of({stands, polyline(5.0, {home, home, home + Vec3{0, 0, 10}})});
+    };
+    EXPECT_NEAR(separation(beside(0.0)).attained_m, 0.0, 1e-5);
+    EXPECT_NEAR(separation(beside(0.19)).attained_m, 0.19, 1e-6);
+    EXPECT_EQ(separation(beside(0.2)).lower_bound_m, 10.0);
+    RecordedShow show = beside(0.199);  // pads 0.2 m apart in a file of millimetres
+    EXPECT_NEAR(separation(show).attained_m, 0.199, 1e-6);
+    show.rounding.position_m = 5e-4;
+    EXPECT_EQ(separation(show).lower_bound_m, 10.0);
+
+    show = show_of({stands, polyline(5.0, {{8, 0, 9}, {0.05, 0, 9}, {0.05, 0, 0}})});  // lands on the other
+    EXPECT_LT(separation(show).attained_m, 0.051);
+}
+
 TEST(VerifySeparation, TwoThatRiseBesideEachOtherAreNotExcused) {
     const RecordedDrone a = polyline(5.0, {{0, 0, 0}, {0, 0, 5}, {0, 0, 10}});
     const RecordedDrone b = polyline(5.0, {{0.8, 0, 0}, {0.8, 0, 5}, {0.8, 0, 10}});
