@@ -89,9 +89,9 @@ Result<bool> is_certified(const Mission& mission, const Leg& leg, const LegMotio
     if (motion.shortest.duration_ms == 0) return true;
     const Surroundings surroundings{geo::ShowFrame(mission.origin), mission.airspace, mission.fleet.pads_m,
                                     mission.limits};
-    auto certificate = certify(act_of(leg, motion), surroundings, run);
+    auto certificate = certify(act_of(leg, motion), surroundings, run, motion.report.required_separation_m);
     if (!certificate) return certificate.error();
-    return certificate->certified() && keeps(certificate->separation, motion.report.required_separation_m);
+    return certificate->certified();
 }
 
 /// True when a is clearly better than b by the objective.

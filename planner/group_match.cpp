@@ -90,6 +90,13 @@ PartSets sets_of_parts(const std::vector<Group>& groups, const Keyframe& keyfram
 
 Result<GroupMatch> match_groups(const std::vector<Group>& groups, const Keyframe& keyframe, const Formation& formation,
                                 std::size_t drones) {
+    for (const Part& part : keyframe.parts) {
+        const auto group = std::ranges::find(groups, part.group, &Group::name);
+        if (group == groups.end() || !group->drones.empty()) continue;
+        return Error{ErrorCode::infeasible, "group \"" + group->name +
+                                                "\" is found by clustering the first keyframe: parts may take it from "
+                                                "the second on"};
+    }
     GroupMatch match;
     const Indices in_play = groups_in_play(groups, keyframe), wholes = whole_groups(groups, keyframe, in_play);
     std::vector<bool> grouped(drones, false);

@@ -55,6 +55,10 @@ Leg arrival(const Mission& mission, const Route& route, std::size_t k) {
     leg.to_m = stop.by_drone_m;
     leg.assignment = stop.assignment;
     leg.may_swap = leg.how.method != Method::flow && nobody_is_named_from(mission, k);
+    for (std::size_t q = leg.first; q <= leg.last; ++q) {  // a flow keeps the most that any of its legs asks for
+        const auto& asked_m = mission.keyframes[q].arrive.min_separation_m;
+        if (asked_m) leg.how.min_separation_m = std::max(*asked_m, leg.how.min_separation_m.value_or(0.0));
+    }
     for (std::size_t q = leg.first; q <= leg.last; ++q) leg.pairwise = leg.pairwise && route.stops[q].pairwise;
     return leg;
 }

@@ -17,6 +17,7 @@ struct LegReport {
     std::string chosen_because;  ///< auto's reason: every candidate with its figures
     std::string separation_by;   ///< the rungs taken, in order; empty: nothing was needed
     int separation_rounds = 0;
+    std::size_t swapped = 0;  ///< drones that took each other's targets
     double path_ratio = 1.0;
     double required_separation_m = 0.0;
 };

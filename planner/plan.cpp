@@ -26,12 +26,15 @@ Result<std::vector<LegMotion>> plan_legs(const Mission& mission, const Route& ro
                              [&](std::size_t l) { return plan_leg(mission, route, legs[l], quiet); });
 }
 
-Result<Certificate> certify_acts(const Mission& mission, const std::vector<Act>& acts, const Run& run) {
+/// @param asked_m  what each act must keep; as many as acts.
+Result<Certificate> certify_acts(const Mission& mission, const std::vector<Act>& acts,
+                                 const std::vector<double>& asked_m, const Run& run) {
     const Surroundings surroundings{geo::ShowFrame(mission.origin), mission.airspace, mission.fleet.pads_m,
                                     mission.limits};
     const Run quiet{run.stop, nullptr, 1};
-    auto certificates = gather<ActCertificate>(acts.size(), run, "certificate",
-                                               [&](std::size_t a) { return certify(acts[a], surroundings, quiet); });
+    auto certificates = gather<ActCertificate>(acts.size(), run, "certificate", [&](std::size_t a) {
+        return certify(acts[a], surroundings, quiet, asked_m[a]);
+    });
     if (!certificates) return certificates.error();
     Certificate certificate{std::move(*certificates), {}};
     const double total_s = seconds_from_ms(acts.back().end_ms());
@@ -42,20 +45,6 @@ Result<Certificate> certify_acts(const Mission& mission, const std::vector<Act>&
         certificate.violations.push_back(text.str());
     }
     return certificate;
-}
-
-/// What the mission asks for beyond its limits, leg by leg.
-void judge_wishes(ActCertificate& act, const LegReport& report) {
-    if (report.required_separation_m <= act.required_separation_m) return;
-    act.required_separation_m = report.required_separation_m;
-    if (keeps(act.separation, act.required_separation_m) || !act.separation.closest) return;
-    const Encounter& e = *act.separation.closest;
-    std::ostringstream text;
-    text << std::setprecision(4) << act.name << ": separation " << e.distance_m << " m of drones " << e.first.number()
-         << " and " << e.second.number() << " at " << std::fixed << std::setprecision(2)
-         << seconds_from_ms(act.start_ms) + e.time_s << " s is below " << std::defaultfloat << std::setprecision(4)
-         << act.required_separation_m << " m (arrive.min_separation_m + export_margin_m)";
-    act.violations.push_back(text.str());
 }
 
 void tell_how(Certificate& certificate, const Timeline& timeline, const std::vector<Leg>& legs,
@@ -71,7 +60,8 @@ void tell_how(Certificate& certificate, const Timeline& timeline, const std::vec
         act.separation_rounds = report.separation_rounds;
         act.path_ratio = report.path_ratio;
         act.assignment = legs[*timeline.leg_of[a]].assignment;
-        judge_wishes(act, report);
+        if (report.swapped > 0)
+            act.assignment += "; then " + std::to_string(report.swapped) + " drones took each other's places";
     }
 }
 
@@ -109,7 +99,8 @@ Result<std::vector<LegMotion>> plan_legs_with_swaps(const Mission& mission, Rout
 Result<bool> is_safe(const Mission& mission, const Leg& leg, const LegMotion& motion, const Run& run) {
     const Millis duration_ms = std::max<Millis>(1, motion.shortest.duration_ms);
     const Run quiet{run.stop, nullptr, run.threads};
-    auto judged = certify_acts(mission, {{leg.name, leg.role, Timing::free, 0, duration_ms, motion.motion}}, quiet);
+    auto judged = certify_acts(mission, {{leg.name, leg.role, Timing::free, 0, duration_ms, motion.motion}},
+                               {motion.report.required_separation_m}, quiet);
     if (!judged) return judged.error();
     return judged->acts.front().certified();
 }
@@ -163,7 +154,10 @@ Result<FlightPlan> plan(const Mission& mission, const PlanOptions& options, cons
     auto flown = mission.carrier ? plan_riding(mission, run) : plan_standing(mission, run);
     if (!flown) return flown.error();
     Timeline& timeline = flown->timeline;
-    auto certificate = certify_acts(mission, timeline.acts, run);
+    std::vector<double> asked_m;
+    for (const auto& leg : timeline.leg_of)
+        asked_m.push_back(leg ? flown->reports[*leg].required_separation_m : planned_separation_m(mission.limits));
+    auto certificate = certify_acts(mission, timeline.acts, asked_m, run);
     if (!certificate) return certificate.error();
     tell_how(*certificate, timeline, flown->legs, flown->reports);
     if (!certificate->certified() && !options.best_effort) return refusal(mission, *certificate);

@@ -122,7 +122,7 @@ void read_limits(TableReader& root, Mission& mission) {
     const auto set = [&](std::string_view key, double& value, const Range& range) {
         value = reader.number(key, range).value_or(value);
     };
-    set("min_separation_m", l.min_separation_m, more_than(0.0, 100.0));
+    set("min_separation_m", l.min_separation_m, at_least(0.1, 100.0));
     set("export_margin_m", l.export_margin_m, at_least(0.0, 1.0));
     set("downwash", l.downwash, at_least(1.0, 10.0));
     if (reader.has("min_separation_m"))

@@ -56,7 +56,7 @@ struct ActCertificate {
     std::string name;
     ActRole role = ActRole::hold;
     Millis start_ms = 0, duration_ms = 0;
-    double required_separation_m = 0.0;  ///< planned_separation_m(limits)
+    double required_separation_m = 0.0;  ///< planned_separation_m(limits), or more where it was asked for
     SeparationBound separation;
     Extremes extremes;
     std::optional<PlaneExtremes> plane;                 ///< of planes alone
@@ -99,6 +99,8 @@ struct Surroundings {
 /// act of another role. So a fleet whose pads are closer than the separation can leave in layers and waves, and no
 /// other way. Accuracy: altitudes to 1e-4 m; margins to a millimetre near zero and a thousandth elsewhere. Errors:
 /// stopped.
-Result<ActCertificate> certify(const Act& act, const Surroundings& surroundings, const Run& run);
+/// @param asked_separation_m  what this act must keep where that is more than planned_separation_m(limits).
+Result<ActCertificate> certify(const Act& act, const Surroundings& surroundings, const Run& run,
+                               double asked_separation_m = 0.0);
 
 }  // namespace aerogram::planner

@@ -38,7 +38,7 @@ using Curve = std::array<Vec3, 4>;
 /// Collects one act's certificate.
 class Judge {
   public:
-    Judge(const Act& act, const Surroundings& around, const Run& run)
+    Judge(const Act& act, const Surroundings& around, double asked_separation_m, const Run& run)
         : act_(act),
           around_(around),
           heights_(around.frame),
@@ -47,7 +47,7 @@ class Judge {
         certificate_.role = act.role;
         certificate_.start_ms = act.start_ms;
         certificate_.duration_ms = act.duration_ms;
-        certificate_.required_separation_m = planned_separation_m(around.limits);
+        certificate_.required_separation_m = std::max(planned_separation_m(around.limits), asked_separation_m);
     }
 
     Status judge_separation(const Run& run) {
@@ -61,7 +61,8 @@ class Judge {
         const Encounter& e = *bound->closest;
         violated("separation " + number(e.distance_m) + " m of drones " + std::to_string(e.first.number()) + " and " +
                  std::to_string(e.second.number()) + " at " + show_time(e.time_s) + " is below " + number(required) +
-                 " m (min_separation_m + export_margin_m)");
+                 (required > planned_separation_m(around_.limits) ? " m (arrive.min_separation_m + export_margin_m)"
+                                                                  : " m (min_separation_m + export_margin_m)"));
         return Done{};
     }
 
@@ -92,6 +93,10 @@ class Judge {
         const auto lowest = static_cast<std::size_t>(std::min_element(low.begin(), low.end()) - low.begin());
         const auto highest = static_cast<std::size_t>(std::max_element(high.begin(), high.end()) - high.begin());
         certificate_.altitude_min_m = altitudes(lowest).low_m;
+        if (certificate_.altitude_min_m < -kAltitudeTolerance_m) {
+            violated("altitude " + number(certificate_.altitude_min_m) + " m of drone " + std::to_string(lowest + 1) +
+                     " is below its pad");
+        }
         const Altitudes top = altitudes(highest);
         certificate_.altitude_max_m = top.high_m;
         if (top.high_m > around_.limits.ceiling_m + kAltitudeTolerance_m) {
@@ -220,9 +225,10 @@ double Certificate::min_separation_m() const {
     return least;
 }
 
-Result<ActCertificate> certify(const Act& act, const Surroundings& surroundings, const Run& run) {
+Result<ActCertificate> certify(const Act& act, const Surroundings& surroundings, const Run& run,
+                               double asked_separation_m) {
     AEROGRAM_REQUIRE(drone_count(act.motion) == surroundings.pads_m.size(), act.name, drone_count(act.motion));
-    Judge judge(act, surroundings, run);
+    Judge judge(act, surroundings, asked_separation_m, run);
     if (run.stopped()) return stopped_error();
     if (auto done = judge.judge_separation(run); !done) return done.error();
     judge.judge_dynamics();
