@@ -5,6 +5,7 @@
 #include <string>
 
 #include "export/verify/judge.hpp"
+#include "tests/unit/export/verify/judged.hpp"
 #include "tests/unit/export/verify/shows.hpp"
 
 namespace aerogram::exporter {
@@ -12,7 +13,12 @@ namespace {
 
 using testing::add_piece;
 using testing::add_smooth;
+using testing::airspace;
+using testing::broken;
 using ::testing::ElementsAre;
+using testing::finding;
+using testing::judged;
+using testing::limits;
 using testing::polyline;
 using testing::show_of;
 using ::testing::UnorderedElementsAre;
@@ -34,29 +40,6 @@ RecordedDrone flight(const Vec3& home_m, const Vec3& way_m = {20, 0, 0}) {
 }
 RecordedShow legal() {
     return show_of({flight({0, 0, 0}), flight({0, 5, 0})});
-}
-
-Judgement judged(const RecordedShow& show, const JudgeAgainst& against = {}) {
-    return judge(show, against, aerogram::Run{}).value();
-}
-const Finding& finding(const Judgement& judgement, const std::string& rule) {
-    for (const Finding& each : judgement.findings) {
-        if (each.rule == rule) return each;
-    }
-    throw std::runtime_error("no finding for " + rule);
-}
-std::vector<std::string> broken(const Judgement& judgement) {
-    std::vector<std::string> names;
-    for (const Finding& each : judgement.findings) {
-        if (!each.held) names.push_back(each.rule);
-    }
-    return names;
-}
-JudgeAgainst limits(const Limits& limits) {
-    return {.limits = limits, .airspace = {}, .origin = {}, .endurance_s = {}, .claimed_separation_m = {}};
-}
-JudgeAgainst airspace(const geo::Airspace& airspace) {
-    return {.limits = {}, .airspace = airspace, .origin = {}, .endurance_s = {}, .claimed_separation_m = {}};
 }
 
 constexpr Limits kAnyAltitude{.min_navigation_altitude_m = 0.0};
@@ -402,55 +385,6 @@ TEST(Judge, ShowWithoutDronesIsRefused) {
     const auto result = judge(RecordedShow{}, {}, aerogram::Run{});
     ASSERT_FALSE(result.ok());
     EXPECT_EQ(result.error().message, "the show has no drones");
-}
-
-/// Take-off to 10 m, a leg 100 m along +x at `height_m`, landing there.
-RecordedShow mission(double height_m) {
-    RecordedShow show;
-    show.format = "plan";
-    show.timed = false;
-    show.origin = geo::ShowOrigin{{-33.9, 18.4, 12.0}, 70.0, {}};
-    const geo::ShowFrame frame(*show.origin);
-    RecordedDrone drone;
-    drone.home = frame.to_geodetic({0, 0, 0});
-    const geo::Geodetic there = frame.to_geodetic({100, 0, 0});
-    drone.waypoints = {{*drone.home, height_m, 0.0, Waypoint::Kind::takeoff},
-                       {there, height_m, 1.0, Waypoint::Kind::fly_to},
-                       {there, 0.0, 0.0, Waypoint::Kind::land}};
-    show.drones = {drone};
-    return show;
-}
-
-TEST(JudgeWaypoints, ClaimNoSeparationAndJudgePlaces) {
-    const geo::Airspace fence{.geofence_m = {{-5, -5}, {104, -5}, {104, 5}, {-5, 5}},
-                              .audience_m = {{{40, 2}, {60, 2}, {50, 4}}},
-                              .obstacles = {}};
-    const Judgement judgement = judged(mission(10.0), airspace(fence));
-    EXPECT_TRUE(judgement.held());
-    EXPECT_FALSE(judgement.separation_claimed);
-    EXPECT_NEAR(finding(judgement, "geofence").worst, 4.0, 0.01);
-    EXPECT_NEAR(finding(judgement, "audience").worst, 2.0, 0.01);
-    EXPECT_NEAR(finding(judgement, "altitude_max").worst, 10.0, 0.01);
-    EXPECT_FALSE(finding(judgement, "geofence").time_s.has_value());
-}
-
-TEST(JudgeWaypoints, BreakRulesBetweenWaypoints) {
-    const geo::Airspace cut{.geofence_m = {}, .audience_m = {{{40, -2}, {60, -2}, {50, 4}}}, .obstacles = {}};
-    EXPECT_THAT(broken(judged(mission(10.0), airspace(cut))), ElementsAre("audience"));
-    EXPECT_THAT(broken(judged(mission(10.0), limits({.ceiling_m = 9.9}))), ElementsAre("altitude_max"));
-    EXPECT_TRUE(judged(mission(2.5)).held());
-    EXPECT_THAT(broken(judged(mission(2.4))), ElementsAre("altitude_min_navigation"));
-    EXPECT_NEAR(finding(judged(mission(2.4)), "altitude_min_navigation").worst, 100.0, 0.1);
-}
-
-TEST(JudgeWaypoints, WithoutOriginOrHomeAreHandled) {
-    RecordedShow show = mission(10.0);
-    show.origin.reset();
-    EXPECT_NEAR(finding(judged(show), "altitude_max").worst, 10.0, 0.01);
-    show.drones[0].home.reset();
-    const auto result = judge(show, {}, aerogram::Run{});
-    ASSERT_FALSE(result.ok());
-    EXPECT_EQ(result.error().message, "drone 1: the file holds no home to count altitudes from");
 }
 
 TEST(Judge, ThreadsChangeNothing) {

@@ -1,0 +1,68 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "export/verify/judge.hpp"
+#include "geo/show_frame.hpp"
+#include "tests/unit/export/verify/judged.hpp"
+
+namespace aerogram::exporter {
+namespace {
+
+using testing::airspace;
+using testing::broken;
+using ::testing::ElementsAre;
+using testing::finding;
+using testing::judged;
+using testing::limits;
+
+/// Take-off to 10 m, a leg 100 m along +x at `height_m`, landing there.
+RecordedShow mission(double height_m) {
+    RecordedShow show;
+    show.format = "plan";
+    show.timed = false;
+    show.origin = geo::ShowOrigin{{-33.9, 18.4, 12.0}, 70.0, {}};
+    const geo::ShowFrame frame(*show.origin);
+    RecordedDrone drone;
+    drone.home = frame.to_geodetic({0, 0, 0});
+    const geo::Geodetic there = frame.to_geodetic({100, 0, 0});
+    drone.waypoints = {{*drone.home, height_m, 0.0, Waypoint::Kind::takeoff},
+                       {there, height_m, 1.0, Waypoint::Kind::fly_to},
+                       {there, 0.0, 0.0, Waypoint::Kind::land}};
+    show.drones = {drone};
+    return show;
+}
+
+TEST(JudgeWaypoints, ClaimNoSeparationAndJudgePlaces) {
+    const geo::Airspace fence{.geofence_m = {{-5, -5}, {104, -5}, {104, 5}, {-5, 5}},
+                              .audience_m = {{{40, 2}, {60, 2}, {50, 4}}},
+                              .obstacles = {}};
+    const Judgement judgement = judged(mission(10.0), airspace(fence));
+    EXPECT_TRUE(judgement.held());
+    EXPECT_FALSE(judgement.separation_claimed);
+    EXPECT_NEAR(finding(judgement, "geofence").worst, 4.0, 0.01);
+    EXPECT_NEAR(finding(judgement, "audience").worst, 2.0, 0.01);
+    EXPECT_NEAR(finding(judgement, "altitude_max").worst, 10.0, 0.01);
+    EXPECT_FALSE(finding(judgement, "geofence").time_s.has_value());
+}
+
+TEST(JudgeWaypoints, BreakRulesBetweenWaypoints) {
+    const geo::Airspace cut{.geofence_m = {}, .audience_m = {{{40, -2}, {60, -2}, {50, 4}}}, .obstacles = {}};
+    EXPECT_THAT(broken(judged(mission(10.0), airspace(cut))), ElementsAre("audience"));
+    EXPECT_THAT(broken(judged(mission(10.0), limits({.ceiling_m = 9.9}))), ElementsAre("altitude_max"));
+    EXPECT_TRUE(judged(mission(2.5)).held());
+    EXPECT_THAT(broken(judged(mission(2.4))), ElementsAre("altitude_min_navigation"));
+    EXPECT_NEAR(finding(judged(mission(2.4)), "altitude_min_navigation").worst, 100.0, 0.1);
+}
+
+TEST(JudgeWaypoints, WithoutOriginOrHomeAreHandled) {
+    RecordedShow show = mission(10.0);
+    show.origin.reset();
+    EXPECT_NEAR(finding(judged(show), "altitude_max").worst, 10.0, 0.01);
+    show.drones[0].home.reset();
+    const auto result = judge(show, {}, aerogram::Run{});
+    ASSERT_FALSE(result.ok());
+    EXPECT_EQ(result.error().message, "drone 1: the file holds no home to count altitudes from");
+}
+
+}  // namespace
+}  // namespace aerogram::exporter
