@@ -193,16 +193,20 @@ def check_waypoints(path, settings, points, ground):
     check_places(numbers[0], numbers[1:], settings, points, ground, path.name)
 
 
+def was_left_out(folder, name):
+    """Whether the manifest says why there is no such format."""
+    formats = json.loads((folder / "manifest.json").read_text())["formats"]
+    return any(f["name"] == name and f.get("skipped") for f in formats)
+
+
 def skyc_of(folder):
     """The folder's Skybrush show, whole; None where the manifest says why there is none."""
+    if was_left_out(folder, "skyc"):
+        return None
     paths = [folder / "show.skyc"]
     if not paths[0].exists():
         paths = [folder / f"show-{number}.skyc" for number in range(1, 1 + len(list(folder.glob("show-*.skyc"))))]
-    if paths:
-        return Skyc(*paths)
-    manifest = json.loads((folder / "manifest.json").read_text())
-    assert any(f["name"] == "skyc" and f["skipped"] for f in manifest["formats"]), manifest["formats"]
-    return None
+    return Skyc(*paths)
 
 
 def main(folder):
@@ -218,13 +222,13 @@ def main(folder):
     check_csv(folder, skyc)
     location = skyc.show["environment"].get("location")
     checked = ["skyc", "csv"]
-    if location:
+    for name, check, suffix in (("qgc", check_plan, "plan"), ("waypoints", check_waypoints, "waypoints")):
+        if not location or was_left_out(folder, name):
+            continue
         ground = Ground(location)
         for settings in skyc.drones:
-            points = skyc.trajectory(settings)
-            check_plan(folder / "qgc" / f"{settings['name']}.plan", settings, points, ground)
-            check_waypoints(folder / "waypoints" / f"{settings['name']}.waypoints", settings, points, ground)
-        checked += ["qgc", "waypoints"]
+            check(folder / name / f"{settings['name']}.{suffix}", settings, skyc.trajectory(settings), ground)
+        checked.append(name)
     print(f"{folder}: {len(skyc.drones)} drones agree in {', '.join(checked)}")
 
 

@@ -168,7 +168,7 @@ void expect_same_shape(const FlightPlan& plan, const planner::PlannedKeyframe& k
     const SeparationMetric level{1.0};
     const Points before = positions_at(plan, seconds_from_ms(keyframe.stands_from_ms));
     const Points after = positions_at(plan, seconds_from_ms(keyframe.stands_to_ms));
-    const auto stays = [&](std::size_t d) { return before[d] == after[d]; };
+    const auto stays = [&](std::size_t d) { return glm::distance(before[d], after[d]) < kRounding_m; };
     for (int k = 1; k <= 8; ++k) {
         const Millis span_ms = keyframe.stands_to_ms - keyframe.stands_from_ms;
         const Points now = positions_at(plan, seconds_from_ms(keyframe.stands_from_ms + k * span_ms / 8));
