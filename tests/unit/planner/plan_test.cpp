@@ -150,5 +150,44 @@ TEST(Plan, ARefusalComesAfterAllActsWereJudged) {
     EXPECT_THAT(plan.error().message, HasSubstr("\n  to c: separation "));
 }
 
+/// A hold that drifts into the ground was certified once, and the way home began below it.
+TEST(Plan, NobodyFliesBelowThePads) {
+    const auto planned =
+        plan(show_of(keyframe("a", "grid", "hold_s = 60\nmotion = { drift_m = [0, 0, -60] }")), {}, aerogram::Run{});
+    ASSERT_FALSE(planned);
+    EXPECT_EQ(planned.error().code, ErrorCode::infeasible);
+    EXPECT_NE(planned.error().message.find("is below its pad"), std::string::npos) << planned.error().message;
+}
+
+/// A separation asked for beyond what certificates usually resolve was taken for kept once.
+TEST(Plan, ASeparationThatFormationsCannotKeepIsRefusedBySizeAndPair) {
+    const auto planned = plan(
+        show_of(keyframe("a", "line", "size_m = [35]") +
+                keyframe("b", "line", "size_m = [35]\nrotate_deg = [0, 30, 0]\narrive = { min_separation_m = 10 }")),
+        {}, aerogram::Run{});
+    ASSERT_FALSE(planned);
+    EXPECT_NE(planned.error().message.find("is below 10.05 m (arrive.min_separation_m + export_margin_m)"),
+              std::string::npos)
+        << planned.error().message;
+}
+
+/// The shortest duration that a refusal names is one that is then accepted, whatever separates the leg.
+TEST(Plan, TheShortestDurationNamedIsAccepted) {
+    const auto with = [](const std::string& duration_s) {
+        return plan(show_of(keyframe("a", "grid") + keyframe("b", "grid",
+                                                             kHalfTurn +
+                                                                 "arrive = { method = \"spectral\", assign = \"keep\", "
+                                                                 "duration_s = " +
+                                                                 duration_s + " }")),
+                    {}, aerogram::Run{});
+    };
+    const auto refused = with("0.5");
+    ASSERT_FALSE(refused);
+    const std::string& told = refused.error().message;
+    const std::size_t at = told.find("must be >= ");
+    ASSERT_NE(at, std::string::npos) << told;
+    EXPECT_TRUE(with(told.substr(at + 11, told.find(' ', at + 11) - at - 11)));
+}
+
 }  // namespace
 }  // namespace aerogram::planner
