@@ -289,6 +289,8 @@ const char* name_of(Method method) {
             return "spectral";
         case Method::rigid:
             return "rigid";
+        case Method::steered:
+            return "steered";
         case Method::automatic:
             return "auto";
         case Method::flow:

@@ -42,7 +42,9 @@ Result<Assignment> assign(const Mission& mission, const Route& route, const Keyf
         case Assign::bottleneck:
             return assign_bottleneck(from_m, formation.points_m, rules, metric, run);
         case Assign::keep:
+        case Assign::slots:  // of the first keyframe: there were no slots before
             return assign_keep(from_m, formation.points_m, rules, metric);
+        case Assign::formation_coordinates:
         case Assign::groups:
             break;
     }
@@ -59,6 +61,10 @@ const char* name_of(Assign assign) {
             return "bottleneck";
         case Assign::keep:
             return "keep";
+        case Assign::slots:
+            return "slots";
+        case Assign::formation_coordinates:
+            return "formation coordinates";
         case Assign::groups:
             break;
     }
@@ -72,7 +78,8 @@ std::vector<bool> waiting_above_pads(const Mission& mission, const Formation& fo
 
 /// Whether a keyframe's matching depends on places alone, not on which drone is where.
 bool by_places_alone(const Arrive& arrive) {
-    return arrive.assign == Assign::shortest && arrive.pins.empty() && arrive.forbid.empty();
+    return (arrive.assign == Assign::shortest && arrive.pins.empty() && arrive.forbid.empty()) ||
+           arrive.assign == Assign::slots;
 }
 
 /// The keyframes' matchings that need no drone's name, slots of the keyframe before to slots; absent for the others.
@@ -84,7 +91,10 @@ Result<std::vector<std::optional<Assignment>>> match_places(const Mission& missi
             if (k == 0 || !by_places_alone(mission.keyframes[k].arrive)) return std::optional<Assignment>{};
             const Points from_m = after_hold(formations[k - 1].points_m, mission.keyframes[k - 1].motion,
                                              waiting_above_pads(mission, formations[k - 1]));
-            auto matched = assign_shortest(from_m, formations[k].points_m, {}, {mission.limits.downwash}, quiet);
+            const SeparationMetric metric{mission.limits.downwash};
+            auto matched = mission.keyframes[k].arrive.assign == Assign::slots
+                               ? assign_keep(from_m, formations[k].points_m, {}, metric)
+                               : assign_shortest(from_m, formations[k].points_m, {}, metric, quiet);
             if (!matched) return matched.error();
             return std::optional(std::move(*matched));
         });

@@ -4,11 +4,11 @@
 #include <map>
 #include <memory>
 
-#include "planner/formation/area_sampling.hpp"
-#include "planner/formation/contour_graph.hpp"
-#include "planner/formation/contour_track.hpp"
-#include "planner/formation/slide_apart.hpp"
-#include "planner/formation/stroke_sampling.hpp"
+#include "planner/sampling/area_sampling.hpp"
+#include "planner/sampling/contour_graph.hpp"
+#include "planner/sampling/contour_track.hpp"
+#include "planner/sampling/slide_apart.hpp"
+#include "planner/sampling/stroke_sampling.hpp"
 
 namespace aerogram::planner {
 namespace {

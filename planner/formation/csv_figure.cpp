@@ -4,7 +4,7 @@
 
 #include "planner/formation/csv_points.hpp"
 #include "planner/formation/figure.hpp"
-#include "planner/formation/thinning.hpp"
+#include "planner/sampling/thinning.hpp"
 
 namespace aerogram::planner {
 namespace {

@@ -12,7 +12,8 @@ Result<Figure> figure_of(const PartRef& ref, const Run& run) {
     if (const auto* text = std::get_if<TextSource>(&ref.part.source)) return text_figure(ref, *text, run);
     if (const auto* image = std::get_if<ImageSource>(&ref.part.source)) return image_figure(ref, *image, run);
     if (const auto* csv = std::get_if<CsvSource>(&ref.part.source)) return csv_figure(ref, *csv);
-    return shape_figure(ref, std::get<ShapeSource>(ref.part.source), run);
+    if (const auto* shape = std::get_if<ShapeSource>(&ref.part.source)) return shape_figure(ref, *shape, run);
+    return ref.error(": source not in this version");
 }
 
 }  // namespace aerogram::planner

@@ -42,6 +42,9 @@ Result<Figure> figure_of(const PartRef& ref, const Run& run);
 
 Result<Figure> text_figure(const PartRef& ref, const TextSource& source, const Run& run);
 Result<Figure> image_figure(const PartRef& ref, const ImageSource& source, const Run& run);
+Result<Figure> svg_figure(const PartRef& ref, const SvgSource& source, const Run& run);
+Result<Figure> mesh_figure(const PartRef& ref, const MeshSource& source, const Run& run);
+Result<Figure> sketch_figure(const PartRef& ref, const SketchSource& source, const Run& run);
 Result<Figure> csv_figure(const PartRef& ref, const CsvSource& source);
 Result<Figure> shape_figure(const PartRef& ref, const ShapeSource& source, const Run& run);
 

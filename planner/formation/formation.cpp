@@ -10,6 +10,7 @@
 #include "planner/formation/figure.hpp"
 #include "planner/formation/sizing.hpp"
 #include "planner/formation/spare_places.hpp"
+#include "planner/sampling/closest_pair.hpp"
 
 namespace aerogram::planner {
 namespace {
@@ -104,7 +105,8 @@ class Builder {
             const Vec3 in_keyframe = part_turn * drawn.points_m[i] + part.center_m;
             out_.points_m.push_back(turn_ * in_keyframe + keyframe_.center_m);
             const Rgb own = figure->colors.empty() ? Rgb{1.0, 1.0, 1.0} : figure->colors[i];
-            out_.colors.push_back(part.color.value_or(own));
+            const auto* one = part.color ? std::get_if<Rgb>(&*part.color) : nullptr;
+            out_.colors.push_back(one ? *one : own);
             out_.part.push_back(static_cast<std::uint32_t>(p));
             out_.spare.push_back(false);
         }

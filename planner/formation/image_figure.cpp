@@ -3,9 +3,9 @@
 #include <memory>
 
 #include "planner/formation/area_figure.hpp"
-#include "planner/formation/area_sampling.hpp"
-#include "planner/formation/palette.hpp"
-#include "planner/formation/picture.hpp"
+#include "planner/picture/palette.hpp"
+#include "planner/picture/picture.hpp"
+#include "planner/sampling/area_sampling.hpp"
 
 namespace aerogram::planner {
 namespace {

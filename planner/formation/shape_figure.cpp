@@ -4,10 +4,10 @@
 
 #include "geo/units.hpp"
 #include "planner/formation/area_figure.hpp"
-#include "planner/formation/area_shapes.hpp"
-#include "planner/formation/curve.hpp"
 #include "planner/formation/figure.hpp"
-#include "planner/formation/sphere_points.hpp"
+#include "planner/sampling/area_shapes.hpp"
+#include "planner/sampling/curve.hpp"
+#include "planner/sampling/sphere_points.hpp"
 
 namespace aerogram::planner {
 namespace {
@@ -138,6 +138,8 @@ Result<Figure> shape_figure(const PartRef& ref, const ShapeSource& source, const
             return filled_figure(square_region(), drones, source.outline_share, run);
         case ShapeKind::grid:
             break;
+        default:
+            return ref.error(".shape: not in this version");
     }
     const auto grid = grid_shape(ref, source);
     if (!grid) return grid.error();

@@ -4,10 +4,10 @@
 
 #include "planner/formation/area_figure.hpp"
 #include "planner/formation/figure.hpp"
-#include "planner/formation/outline_text.hpp"
-#include "planner/formation/stroke_graph.hpp"
-#include "planner/formation/stroke_sampling.hpp"
-#include "planner/formation/text_layout.hpp"
+#include "planner/sampling/stroke_graph.hpp"
+#include "planner/sampling/stroke_sampling.hpp"
+#include "planner/text/outline_text.hpp"
+#include "planner/text/text_layout.hpp"
 
 namespace aerogram::planner {
 namespace {

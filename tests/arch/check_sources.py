@@ -16,9 +16,10 @@ LONGEST_FILE = 450  # lines; the aim is half of it
 COUNTED = {".cpp", ".hpp", ".py", ".ts", ".cmake"}
 SKIPPED_FOLDERS = {"node_modules", ".venv", ".git", "out"}
 
-# Third-party header -> the ending of the only .cpp files that may include it.
+# Third-party header -> the ending (or endings) of the only .cpp files that may include it.
 SEAMS = (
-    (r"CGAL/", "cgal"), (r"boost/", "cgal"), (r"tetgen\.h", "tetgen"), (r"cholmod\.h|suitesparse/", "cholmod"),
+    (r"CGAL/", "cgal"), (r"boost/", "cgal|svgpp"), (r"svgpp/|rapidxml", "svgpp"), (r"assimp/", "assimp"), (r"cairo[\w-]*\.h", "cairo"),
+    (r"potracelib\.h", "potrace"), (r"tetgen\.h", "tetgen"), (r"cholmod\.h|suitesparse/", "cholmod"),
     (r"cblas\.h|lapack\.h|lapacke\.h|openblas", "lapack"), (r"GeographicLib/", "geographiclib"), (r"modbus", "modbus"),
     (r"toml\+\+/|toml\.hpp", "tomlplusplus"), (r"nlohmann/", "json"), (r"zip\.h|zipconf\.h", "libzip"),
     (r"libdeflate\.h", "libdeflate"),
@@ -113,7 +114,7 @@ def check_library_include(path, header):
         return f"<{header}>: headers take only GLM's small headers" if whole else None
     for pattern, ending in SEAMS:
         if re.match(pattern, header):
-            return None if path.endswith(f"_{ending}.cpp") else f"<{header}> belongs into a seam file *_{ending}.cpp"
+            return None if re.search(f"_({ending})\\.cpp$", path) else f"<{header}> belongs into a seam file *_{ending}.cpp"
     return f"<{header}> is a library that tests/arch does not know: give it a seam in SEAMS"
 
 

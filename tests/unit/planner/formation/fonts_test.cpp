@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "planner/formation/outline_font.hpp"
-#include "planner/formation/outline_text.hpp"
+#include "planner/text/outline_font.hpp"
+#include "planner/text/outline_text.hpp"
 #include "tests/unit/planner/formation/missions.hpp"
 
 namespace aerogram::planner::testing {

@@ -9,7 +9,7 @@
 
 #include "geo/units.hpp"
 #include "tests/unit/planner/formation/missions.hpp"
-#include "tests/unit/planner/formation/random.hpp"
+#include "tests/unit/planner/sampling/random.hpp"
 
 namespace aerogram::planner::testing {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "planner/formation/stroke_font.hpp"
+#include "planner/text/stroke_font.hpp"
 #include "tests/unit/planner/formation/missions.hpp"
 
 /// Can a letter be read off its drones? Discs at the slots are compared with thick drawings of all capital letters and

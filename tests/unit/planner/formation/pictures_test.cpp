@@ -7,10 +7,10 @@
 #include <iterator>
 #include <set>
 
-#include "planner/formation/palette.hpp"
-#include "planner/formation/picture.hpp"
+#include "planner/picture/palette.hpp"
+#include "planner/picture/picture.hpp"
 #include "tests/unit/planner/formation/missions.hpp"
-#include "tests/unit/planner/formation/random.hpp"
+#include "tests/unit/planner/sampling/random.hpp"
 
 namespace aerogram::planner::testing {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "geo/units.hpp"
-#include "planner/formation/curve.hpp"
-#include "planner/formation/sphere_points.hpp"
+#include "planner/sampling/curve.hpp"
+#include "planner/sampling/sphere_points.hpp"
 #include "tests/unit/planner/formation/missions.hpp"
 
 namespace aerogram::planner::testing {

@@ -7,9 +7,9 @@
 #include <set>
 
 #include "planner/formation/spare_places.hpp"
-#include "planner/formation/thinning.hpp"
+#include "planner/sampling/thinning.hpp"
 #include "tests/unit/planner/formation/missions.hpp"
-#include "tests/unit/planner/formation/random.hpp"
+#include "tests/unit/planner/sampling/random.hpp"
 
 namespace aerogram::planner::testing {
 namespace {
