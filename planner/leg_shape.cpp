@@ -39,7 +39,7 @@ Result<GroupMotion> motion_tree(const Mission& mission, const Route& route, cons
         if (group.drones.empty()) continue;
         if (!insert(fleet, {group.drones, move.method, move.spectral, move.blend, {}})) {
             return Error{ErrorCode::invalid_input,
-                         mission.at(leg.how.line, keyframe_key(leg.last) + ".arrive.groups: group \"" + group.name +
+                         mission.at(leg.how.line, keyframe_key(mission, leg.last) + ".arrive.groups: group \"" + group.name +
                                                       "\" shares some of its drones with another: groups of one "
                                                       "arrival must be apart or one inside the other")};
         }

@@ -19,7 +19,7 @@ Status check_beginning(const Mission& mission) {
     if (mission.fleet.vehicle != Vehicle::plane) return Done{};
     const Keyframe& first = mission.keyframes.front();
     const auto refused = [&](const std::string& what) {
-        return Error{ErrorCode::invalid_input, mission.at(first.line, keyframe_key(0) + what)};
+        return Error{ErrorCode::invalid_input, mission.at(first.line, keyframe_key(mission, 0) + what)};
     };
     if (first.hold_s <= 0.0) return refused(".hold_s = 0: planes begin the show in the first keyframe; hold it");
     if (first.at_s && *first.at_s > 0.0)

@@ -161,7 +161,7 @@ Result<Route> build_route(const Mission& mission, const Run& run) {
                 const Error& error = matched.error();
                 if (error.code == ErrorCode::stopped) return error;
                 return Error{ErrorCode::invalid_input,
-                             mission.at(keyframe.arrive.line, keyframe_key(k) + ".arrive: " + error.message)};
+                             mission.at(keyframe.arrive.line, keyframe_key(mission, k) + ".arrive: " + error.message)};
             }
             assignment = std::move(*matched);
         }

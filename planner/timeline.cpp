@@ -64,7 +64,7 @@ class Builder {
     Result<Millis> timed_arrival(const Leg& leg, const LegMotion& motion) {
         const Millis shortest_ms = motion.shortest.duration_ms;
         const Keyframe& keyframe = mission_.keyframes[leg.last];
-        const std::string key = keyframe_key(leg.last);
+        const std::string key = keyframe_key(mission_, leg.last);
         Millis duration_ms = shortest_ms;
         if (motion.wanted_s) {
             duration_ms = milliseconds(*motion.wanted_s);
@@ -121,7 +121,7 @@ class Builder {
         if (hold_ms < shortest.duration_ms) {
             return Error{ErrorCode::invalid_input,
                          mission_.at(mission_.keyframes[leg.last].line,
-                                     keyframe_key(leg.last) + ".hold_s = " + number(seconds_from_ms(hold_ms)) +
+                                     keyframe_key(mission_, leg.last) + ".hold_s = " + number(seconds_from_ms(hold_ms)) +
                                          ": its motion needs >= " + rounded_up_s(shortest.duration_ms) + " (set by " +
                                          shortest.set_by + ")")};
         }

@@ -61,7 +61,7 @@ class Builder {
     Builder(const Mission& mission, std::size_t index, const Run& run)
         : mission_(mission),
           keyframe_(mission.keyframes[index]),
-          key_(keyframe_key(index)),
+          key_(keyframe_key(mission, index)),
           run_(run),
           metric_{mission.limits.downwash},
           turn_(rotation(keyframe_.rotate_rad)) {}
@@ -110,6 +110,8 @@ class Builder {
             out_.part.push_back(static_cast<std::uint32_t>(p));
             out_.spare.push_back(false);
         }
+        out_.coverage_m.push_back(figure->coverage ? std::optional(figure->coverage(drawn.scale, drawn.points_m))
+                                                   : std::nullopt);
         if (!figure->note.empty()) note(alone ? figure->note : "part " + std::to_string(p + 1) + ' ' + figure->note);
         parts_.push_back({std::move(ref), std::move(*figure), std::move(drawn), spacing_of, first});
         return Done{};

@@ -248,6 +248,7 @@ struct HoldMotion {
 
 struct Keyframe {
     std::string name;         ///< unique
+    std::size_t number = 1;   ///< of the [[keyframe]] in the file, from 1; all frames of an animation have its number
     std::string clip;         ///< a frame of an animation: the name of the keyframe that the mission writes, else empty
     std::vector<Part> parts;  ///< >= 1
     Vec3 center_m{};          ///< with parts: applied on top of each part's own place; else (0,0,0) and in the part
@@ -306,9 +307,10 @@ struct Light {
     double fade_in_s = 0.0, fade_out_s = 0.0;
     std::optional<std::size_t> group;  ///< only its drones: index into Mission::groups
     std::optional<LightVolume> volume;
-    Vec3 direction{1.0, 0.0, 0.0};              ///< sweep, gradient: where they run
-    double width_m = 5.0;                       ///< sweep: of the band that runs through
-    double period_s = 2.0;                      ///< sweep, chase, pulse, sparkle, gradient: of one round
+    std::optional<Vec3>
+        direction;          ///< sweep, gradient: where they run (absent: x); chase: along it (absent: by slot number)
+    double width_m = 5.0;   ///< sweep: of the band that runs through
+    double period_s = 2.0;  ///< sweep, chase, pulse, sparkle, gradient: of one round
     std::uint32_t length = 5;                   ///< chase: drones in a run
     double share = 0.2;                         ///< sparkle: of the drones that are lit at a time
     bool radial = false;                        ///< sweep, gradient: from the middle outwards
@@ -370,7 +372,7 @@ struct Mission {
 /// in front of the origin.
 [[nodiscard]] Vec3 audience_seat(const Mission& mission);
 
-/// "keyframe[3]" as messages and people count: from 1.
-[[nodiscard]] std::string keyframe_key(std::size_t index);
+/// "keyframe[3]" as messages and people count: from 1. @param index  into mission.keyframes.
+[[nodiscard]] std::string keyframe_key(const Mission& mission, std::size_t index);
 
 }  // namespace aerogram::planner

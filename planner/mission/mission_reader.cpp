@@ -12,8 +12,17 @@ std::string Mission::at(int line, const std::string& what) const {
     return file.generic_string() + ":" + std::to_string(line) + ": " + what;
 }
 
-std::string keyframe_key(std::size_t index) {
-    return "keyframe[" + std::to_string(index + 1) + "]";
+std::string keyframe_key(const Mission& mission, std::size_t index) {
+    return "keyframe[" + std::to_string(mission.keyframes[index].number) + "]";
+}
+
+Vec3 audience_seat(const Mission& mission) {
+    constexpr double kEyes_m = 1.7, kUsualDistance_m = 80.0;
+    if (mission.seat_m) return *mission.seat_m;
+    if (mission.airspace.audience_m.empty()) return {0.0, -kUsualDistance_m, kEyes_m};
+    Vec2 sum{};
+    for (const Vec2& corner : mission.airspace.audience_m.front()) sum += corner;
+    return {sum / static_cast<double>(mission.airspace.audience_m.front().size()), kEyes_m};
 }
 
 Result<Mission> parse_mission(std::string_view toml, const std::filesystem::path& file) {
@@ -33,7 +42,7 @@ Result<Mission> parse_mission(std::string_view toml, const std::filesystem::path
     read_cues(root, mission);
     read_adjacency(root, mission);
     read_carrier(root, mission);
-    refuse_later_sections(root);
+    read_light_effects(root, mission);
     root.finish();
     if (!problems.empty()) return problems.error();
     return mission;

@@ -9,27 +9,6 @@ namespace {
 
 enum class Kind { cylinder, box, prism };
 
-std::optional<double> degrees_within(const TomlValue& value, double most) {
-    const auto number = finite_number(value);
-    return number && std::abs(*number) <= most ? number : std::nullopt;
-}
-
-// A list of [a, b] pairs; empty when it is not one.
-std::vector<Vec2> pairs_of(const TomlValue& value, double most_a, double most_b) {
-    std::vector<Vec2> out;
-    const auto* array = std::get_if<TomlArray>(&value.data);
-    if (!array) return {};
-    for (const TomlValue& item : *array) {
-        const auto* pair = std::get_if<TomlArray>(&item.data);
-        if (!pair || pair->size() != 2) return {};
-        const auto a = degrees_within((*pair)[0], most_a);
-        const auto b = degrees_within((*pair)[1], most_b);
-        if (!a || !b) return {};
-        out.emplace_back(*a, *b);
-    }
-    return out;
-}
-
 constexpr const char* kPolygonForm =
     "must be a list of >= 3 [latitude, longitude] pairs in degrees, latitude from -90 to 90, longitude from -180 to "
     "180";

@@ -73,13 +73,15 @@ void read_choices(TableReader& in, Arrive& out) {
                                               {"spectral", Method::spectral},
                                               {"flow", Method::flow},
                                               {"rigid", Method::rigid},
+                                              {"steered", Method::steered},
                                               {"auto", Method::automatic}})
                      .value_or(out.method);
     out.assign = in.choice<Assign>("assign", {{"shortest", Assign::shortest},
                                               {"keep", Assign::keep},
                                               {"groups", Assign::groups},
                                               {"bottleneck", Assign::bottleneck},
-                                              {"formation_coordinates", std::nullopt}})
+                                              {"slots", Assign::slots},
+                                              {"formation_coordinates", Assign::formation_coordinates}})
                      .value_or(out.assign);
     out.profile = in.choice<ProfileKind>("profile", {{"minimum-jerk", ProfileKind::minimum_jerk},
                                                      {"trapezoid", ProfileKind::trapezoid},
@@ -124,7 +126,7 @@ std::set<std::pair<DroneId, SlotId>> read_forbid(TableReader& arrive, const Arri
 GroupMove read_move(TableReader& in, const Arrive& fleet) {
     GroupMove move;
     const Method usual =
-        fleet.method == Method::flow || fleet.method == Method::automatic ? Method::straight : fleet.method;
+        fleet.method == Method::spectral || fleet.method == Method::rigid ? fleet.method : Method::straight;
     move.method =
         in.choice<Method>("method",
                           {{"straight", Method::straight}, {"spectral", Method::spectral}, {"rigid", Method::rigid}})
@@ -185,9 +187,24 @@ void read_moves(TableReader& arrive, const Mission& mission, Arrive& out) {
         table->finish();
     }
     for (const auto& [group, levels] : deeper) add_levels(mission, group, levels, out);
+    if (!out.groups.empty() && out.method == Method::steered)
+        arrive.bad("groups", "a steered fleet has its own groups: those of the mission; leave out groups");
     if (!out.groups.empty() && out.method == Method::flow) {
         arrive.bad("groups", "a flow moves the whole fleet; leave out groups, or choose another method");
     }
+}
+
+// `steer = { w1 = 0.4, w2 = 0.2, w3 = 0.3, w4 = 0.1 }`: paper 002, equation 4.
+void read_steer(TableReader& arrive, Arrive& out) {
+    auto in = arrive.table("steer");
+    if (!in) return;
+    if (out.method != Method::steered) arrive.bad("steer", "needs method = \"steered\"");
+    out.steer.w1 = in->number("w1", {0.0, 1.0, true}).value_or(out.steer.w1);
+    out.steer.w2 = in->number("w2", {0.0, 1.0}).value_or(out.steer.w2);
+    out.steer.w3 = in->number("w3", {0.0, 1.0, true}).value_or(out.steer.w3);
+    out.steer.w4 = in->number("w4", {0.0, 1.0}).value_or(out.steer.w4);
+    out.steer.face_course = in->flag("face_course").value_or(false);
+    in->finish();
 }
 
 void read_timing(TableReader& in, const Mission& mission, Arrive& out) {
@@ -214,6 +231,7 @@ Arrive read_arrive(TableReader& keyframe, const Mission& mission) {
     read_timing(*in, mission, out);
     out.spectral = read_spectral(*in, out.spectral);
     read_flow(*in, out.flow);
+    read_steer(*in, out);
     read_moves(*in, mission, out);
     in->misplaced(source_keys(), "belongs to the keyframe; must stand before [keyframe.arrive]");
     constexpr std::string_view kOfKeyframe[] = {"name", "center_m", "rotate_deg", "color", "at_s", "hold_s", "motion"};

@@ -217,13 +217,4 @@ void read_adjacency(TableReader& root, Mission& mission) {
     for (TableReader& in : root.tables("adjacency")) read_edit(in, mission);
 }
 
-void refuse_later_sections(TableReader& root) {
-    for (TableReader& light : root.tables("light")) {
-        root.problems().add(light.line(), light.path() + ": light effects are not in this version; remove [[light]]");
-        light.need("effect", "write effect = \"sweep\"");
-        light.text("effect");
-        light.text("keyframe");
-    }
-}
-
 }  // namespace aerogram::planner

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <iterator>
+#include <set>
 
 #include "geo/units.hpp"
 #include "planner/mission/sections.hpp"
@@ -46,7 +48,7 @@ void read_parts(TableReader& in, Keyframe& keyframe, const Mission& mission) {
     keyframe.center_m = in.vec3("center_m").value_or(Vec3{});
     const Vec3 rotate_deg = in.vec3("rotate_deg").value_or(Vec3{});
     keyframe.rotate_rad = {radians(rotate_deg.x), radians(rotate_deg.y), radians(rotate_deg.z)};
-    const std::optional<Rgb> color = read_color(in);
+    const std::optional<Paint> color = read_paint(in, "color");
     std::vector<TableReader> tables = in.tables("part");
     const auto* listed = std::get_if<TomlArray>(&in.find("part")->data);
     if (listed && listed->empty()) in.bad("part", "must be at least one [[keyframe.part]]");
@@ -70,18 +72,14 @@ void read_parts(TableReader& in, Keyframe& keyframe, const Mission& mission) {
     check_groups(in, keyframe, mission, tables);
 }
 
-HoldMotion read_motion(TableReader& in) {
-    HoldMotion out;
-    auto motion = in.table("motion");
-    if (!motion) return out;
-    out.spin_rad = radians(motion->number("spin_deg", {-36000.0, 36000.0}).value_or(0.0));
-    out.drift_m = motion->vec3("drift_m").value_or(Vec3{});
-    motion->finish();
-    return out;
-}
-
-Keyframe read_keyframe(TableReader& in, const Mission& mission) {
+struct WrittenKeyframe {
     Keyframe keyframe;
+    std::optional<Animation> animation;
+};
+
+WrittenKeyframe read_keyframe(TableReader& in, const Mission& mission) {
+    WrittenKeyframe written;
+    Keyframe& keyframe = written.keyframe;
     keyframe.line = in.line();
     in.need("name", "write a unique name = \"...\"");
     keyframe.name = in.name("name").value_or("");
@@ -93,7 +91,9 @@ Keyframe read_keyframe(TableReader& in, const Mission& mission) {
     if (in.has("part")) {
         read_parts(in, keyframe, mission);
     } else {
-        keyframe.parts.push_back(read_part(in, mission, false).part);
+        PartWish wish = read_part(in, mission, false);
+        keyframe.parts.push_back(std::move(wish.part));
+        written.animation = std::move(wish.animation);
         keyframe.parts[0].drones = mission.fleet.drones;
         check_grid(keyframe.parts[0], in);
         for (const std::string_view key : {"drones", "share", "group"}) {
@@ -101,8 +101,13 @@ Keyframe read_keyframe(TableReader& in, const Mission& mission) {
                 in.bad(key, "belongs to a [[keyframe.part]]; a keyframe without parts takes the whole fleet");
         }
     }
+    if (written.animation && keyframe.hold_s == 0.0) in.bad("hold_s", "an animation's last frame needs a hold_s > 0");
     in.finish();
-    return keyframe;
+    return written;
+}
+
+std::string written_key(std::size_t index) {
+    return "keyframe[" + std::to_string(index + 1) + "]";
 }
 
 // What one keyframe demands of its neighbours.
@@ -112,14 +117,14 @@ void check_order(std::vector<TableReader>& tables, const std::vector<Keyframe>& 
         const Keyframe& keyframe = keyframes[k];
         for (std::size_t j = 0; j < k; ++j) {
             if (keyframe.name.empty() || keyframes[j].name != keyframe.name) continue;
-            tables[k].bad("name", "must be unique; " + keyframe_key(j) + " at line " +
+            tables[k].bad("name", "must be unique; " + written_key(j) + " at line " +
                                       std::to_string(keyframes[j].line) + " has it too");
             break;
         }
         if (keyframe.at_s) {
             if (timed && *keyframe.at_s <= *keyframes[*timed].at_s) {
                 tables[k].bad("at_s",
-                              "must be > " + shown(*keyframes[*timed].at_s) + ", the time of " + keyframe_key(*timed));
+                              "must be > " + shown(*keyframes[*timed].at_s) + ", the time of " + written_key(*timed));
             }
             timed = k;
         }
@@ -137,16 +142,43 @@ void check_order(std::vector<TableReader>& tables, const std::vector<Keyframe>& 
     }
 }
 
+// Frames are named after their keyframe: "bird 1", "bird 2"; no other keyframe may be called so.
+void check_frame_names(std::vector<TableReader>& tables, const Mission& mission) {
+    std::set<std::string> frames;
+    for (const Keyframe& keyframe : mission.keyframes) {
+        if (!keyframe.clip.empty()) frames.insert(keyframe.name);
+    }
+    for (const Keyframe& keyframe : mission.keyframes) {
+        if (keyframe.clip.empty() && frames.contains(keyframe.name))
+            tables[keyframe.number - 1].bad("name", "a frame of an animation is called so");
+    }
+}
+
 }  // namespace
 
 void read_keyframes(TableReader& root, Mission& mission) {
     std::vector<TableReader> tables = root.tables("keyframe");
-    if (root.need("keyframe", "write at least one [[keyframe]] with a name and a text, csv or shape")) {
+    if (root.need("keyframe", "write at least one [[keyframe]] with a name and a text, shape or another source")) {
         const auto* listed = std::get_if<TomlArray>(&root.find("keyframe")->data);
         if (listed && listed->empty()) root.bad("keyframe", "must be at least one [[keyframe]]");
     }
-    for (TableReader& table : tables) mission.keyframes.push_back(read_keyframe(table, mission));
-    check_order(tables, mission.keyframes);
+    std::vector<Keyframe> written;
+    std::vector<std::optional<Animation>> animations;
+    for (TableReader& table : tables) {
+        WrittenKeyframe one = read_keyframe(table, mission);
+        written.push_back(std::move(one.keyframe));
+        animations.push_back(std::move(one.animation));
+    }
+    check_order(tables, written);
+    for (std::size_t k = 0; k < written.size(); ++k) {
+        written[k].number = k + 1;
+        if (!animations[k]) {
+            mission.keyframes.push_back(std::move(written[k]));
+        } else {
+            std::ranges::move(frames_of(written[k], *animations[k]), std::back_inserter(mission.keyframes));
+        }
+    }
+    check_frame_names(tables, mission);
 }
 
 }  // namespace aerogram::planner

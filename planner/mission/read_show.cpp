@@ -109,6 +109,7 @@ void read_show(TableReader& root, Mission& mission) {
                                                               {"together", Objective::together},
                                                               {"smooth", Objective::smooth}})
                             .value_or(mission.objective);
+    mission.seat_m = show->vec3("seat_m");
     show->finish();
 }
 

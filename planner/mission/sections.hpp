@@ -24,21 +24,43 @@ void read_adjacency(TableReader& root, Mission& mission);
 void read_keyframes(TableReader& root, Mission& mission);
 /// [carrier]; after limits and fleet. Planes without one are a problem.
 void read_carrier(TableReader& root, Mission& mission);
-/// Refuses what only later versions know: [[light]].
-void refuse_later_sections(TableReader& root);
+/// [[light]]; after groups and keyframes.
+void read_light_effects(TableReader& root, Mission& mission);
 
 /// [keyframe.arrive]. @param in  the keyframe.
 Arrive read_arrive(TableReader& in, const Mission& mission);
+
+/// [keyframe] motion.
+HoldMotion read_motion(TableReader& in);
+
+/// `animation = { frames = 8, duration_s = 12 }` beside an svg or a mesh.
+struct Animation {
+    std::string clip;
+    std::size_t frames = 2, repeat = 1;
+    std::optional<double> duration_s;  ///< of one pass; absent: as fast as the limits allow
+};
+/// The keyframes that a keyframe with an animation stands for: the first is reached as the mission says, the others by
+/// one flow in which every drone keeps its slot.
+[[nodiscard]] std::vector<Keyframe> frames_of(const Keyframe& keyframe, const Animation& animation);
 
 /// The source, size, place, colour, share and group of a keyframe without parts or of one part.
 struct PartWish {
     Part part;
     std::optional<std::size_t> drones;
     std::optional<double> share;
+    std::optional<Animation> animation;
 };
 PartWish read_part(TableReader& in, const Mission& mission, bool is_part);
-/// `color = "#rgb"` or "#rrggbb".
-std::optional<Rgb> read_color(TableReader& in);
+/// `color = "#rgb"`, "#rrggbb" or a table with a gradient, a palette or an image.
+std::optional<Paint> read_paint(TableReader& in, std::string_view key);
+/// A list of at least so many hex colours.
+std::optional<std::vector<Rgb>> read_colors(TableReader& in, std::string_view key, std::size_t least);
+/// Three numbers, not all 0.
+std::optional<Vec3> read_direction(TableReader& in, std::string_view key);
+/// `polyline = [[x, z], ...]` or `bezier = [...]`, one of the two. @param closed  the line comes back to its start.
+std::optional<DrawnLine> read_drawn_line(TableReader& in, bool closed);
+/// `along = { arc_deg = 120 }` or a drawn line.
+std::optional<DrawnLine> read_along(TableReader& text);
 /// The keys that say what a formation looks like: they belong to the keyframe or to its parts, never to both.
 [[nodiscard]] std::span<const std::string_view> source_keys();
 

@@ -180,6 +180,35 @@ std::optional<Vec3> TableReader::vec3(std::string_view key) {
     return v ? std::optional(Vec3((*v)[0], (*v)[1], (*v)[2])) : std::nullopt;
 }
 
+std::vector<Vec2> pairs_of(const TomlValue& value, double most_a, double most_b) {
+    const auto within = [](const TomlValue& item, double most) {
+        const auto number = finite_number(item);
+        return number && std::abs(*number) <= most ? number : std::nullopt;
+    };
+    std::vector<Vec2> out;
+    const auto* array = std::get_if<TomlArray>(&value.data);
+    if (!array) return {};
+    for (const TomlValue& item : *array) {
+        const auto* pair = std::get_if<TomlArray>(&item.data);
+        if (!pair || pair->size() != 2) return {};
+        const auto a = within((*pair)[0], most_a);
+        const auto b = within((*pair)[1], most_b);
+        if (!a || !b) return {};
+        out.emplace_back(*a, *b);
+    }
+    return out;
+}
+
+std::optional<std::vector<Vec2>> TableReader::pairs(std::string_view key, std::size_t least, std::string_view form) {
+    constexpr double kMost = 1e6;
+    const TomlValue* value = find(key);
+    if (!value) return std::nullopt;
+    std::vector<Vec2> out = pairs_of(*value, kMost, kMost);
+    if (out.size() >= least) return out;
+    bad(key, "must be " + std::string(form));
+    return std::nullopt;
+}
+
 std::optional<TableReader> TableReader::table(std::string_view key) {
     const TomlValue* value = find(key);
     if (!value) return std::nullopt;

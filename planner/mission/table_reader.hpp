@@ -61,6 +61,8 @@ class TableReader {
                                                std::string_view form, const Range& range = kAny);
     std::optional<Vec2> vec2(std::string_view key);
     std::optional<Vec3> vec3(std::string_view key);
+    /// [[a, b], ...] @param form  what it must be, in words.
+    std::optional<std::vector<Vec2>> pairs(std::string_view key, std::size_t least, std::string_view form);
     std::optional<TableReader> table(std::string_view key);
     std::vector<TableReader> tables(std::string_view key);  ///< [[key]], in file order
     template <class T>
@@ -100,6 +102,8 @@ class TableReader {
 
 /// The number (integer or float) in a value, when it is one and finite.
 [[nodiscard]] std::optional<double> finite_number(const TomlValue& value);
+/// A list of [a, b] pairs of finite numbers within +- most; empty when it is not one.
+[[nodiscard]] std::vector<Vec2> pairs_of(const TomlValue& value, double most_a, double most_b);
 /// "must be >= 0" and the like. @param value  the number that is refused; absent: it is not even a finite number.
 [[nodiscard]] std::string must_be(const Range& range, std::optional<double> value);
 [[nodiscard]] bool inside(const Range& range, double value);

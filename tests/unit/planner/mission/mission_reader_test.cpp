@@ -55,7 +55,7 @@ TEST(MissionReader, KeepsLinesForLaterMessages) {
     EXPECT_EQ(m->keyframes[0].parts[0].line, 7);
     EXPECT_EQ(m->keyframes[0].arrive.line, 11);
     EXPECT_EQ(m->at(7, "keyframe[1].size_m = 3: needs >= 7.5"), "m.toml:7: keyframe[1].size_m = 3: needs >= 7.5");
-    EXPECT_EQ(keyframe_key(0), "keyframe[1]");
+    EXPECT_EQ(keyframe_key(*m, 0), "keyframe[1]");
 }
 
 TEST(MissionReader, AmslHeightBecomesEllipsoidal) {
@@ -197,9 +197,9 @@ color = "#00f"
     EXPECT_EQ(k.parts[0].drones, 2U);
     EXPECT_EQ(k.parts[0].group, "right");
     EXPECT_EQ(k.parts[0].center_m, Vec3(5, 0, 0));
-    EXPECT_EQ(k.parts[0].color, (Rgb{1, 0, 0}));
+    EXPECT_EQ(std::get<Rgb>(*k.parts[0].color), (Rgb{1, 0, 0}));
     EXPECT_EQ(k.parts[1].drones, 2U);
-    EXPECT_EQ(k.parts[1].color, (Rgb{0, 0, 1}));
+    EXPECT_EQ(std::get<Rgb>(*k.parts[1].color), (Rgb{0, 0, 1}));
 }
 
 TEST(MissionReader, SizesComeAsListsOrTables) {
