@@ -75,7 +75,7 @@ DensityMap read_density(TableReader& in, const Sourced& sourced, const Size& siz
     const TomlValue* written = in.find("density");
     const auto* word = written ? std::get_if<std::string>(&written->data) : nullptr;
     const bool of_image = image && word && (*word == "even" || *word == "luminance");
-    if (written && !of_image)
+    if (written && !of_image && (sourced.dense || sourced.form == Form::unknown))
         out.image = in.file("density", std::string(image ? "\"even\", \"luminance\" or " : "") + "a PNG or JPEG file");
     for (TableReader& stroke : in.tables("brush")) {
         BrushStroke brush;

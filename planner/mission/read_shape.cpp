@@ -87,8 +87,7 @@ Sourced read_shape(TableReader& in) {
           Owner{"inner", "ring, star and torus", kind == ring || kind == star || kind == torus},
           Owner{"style", "areas and solids", area || skin},
           Owner{"outline_share", "filled areas (disc, ring, square, polygon, star, heart)", filled}}) {
-        if (in.has(owner.key) && !owner.has)
-            in.bad(owner.key, "only " + std::string(owner.owners) + " have " + std::string(owner.key));
+        if (in.has(owner.key) && !owner.has) in.bad(owner.key, "belongs to " + std::string(owner.owners));
     }
     const bool solid = skin || kind == helix || kind == wave;
     const Form form = area && out.area_style == AreaStyle::solid ? Form::extruded : solid ? Form::solid : Form::flat;

@@ -38,7 +38,7 @@ Sourced read_text(TableReader& in) {
                       "align", {{"left", TextAlign::left}, {"center", TextAlign::center}, {"right", TextAlign::right}})
                     .value_or(out.align);
     out.along = read_along(in);
-    if (out.along && out.text.find('\n') != std::string::npos) in.bad("along", "needs a text of one line");
+    if (in.has("along") && out.text.find('\n') != std::string::npos) in.bad("along", "needs a text of one line");
     out.outline_share = in.number("outline_share", {0.0, 1.0});
     if (out.outline_share && out.style != fill) in.bad("outline_share", "only style = \"fill\" has an outline_share");
     return {out, out.style == solid ? Form::extruded : Form::flat, out.style == fill || out.style == solid};
@@ -168,7 +168,7 @@ Sourced read_sketch(TableReader& in) {
     const auto* listed = std::get_if<TomlArray>(&in.find("sketch")->data);
     if (listed && listed->empty()) in.bad("sketch", "must have at least one line");
     const bool encloses = std::ranges::any_of(out.lines, [](const SketchLine& l) { return !l.exclude; });
-    if (!out.lines.empty() && !encloses)
+    if (listed && !out.lines.empty() && out.lines.size() == listed->size() && !encloses)
         in.bad("sketch", "must have a line without exclude: there is nothing to stand on");
     out.sampling_unit_m = in.number("sampling_unit_m", more_than(0.0, 1000.0));
     read_relaxation(in, out);
