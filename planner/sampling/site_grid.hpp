@@ -1,5 +1,6 @@
 #pragma once
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -7,28 +8,32 @@
 
 namespace aerogram::planner {
 
-/// Points of the plane by square buckets, so that those near a place are found at once.
-class SiteGrid {
+/// Points of the plane or of space by square buckets, so that those near a place are found at once.
+template <class Vec>
+class BasicSiteGrid {
   public:
     /// @param side  of a bucket, > 0; made wider where there would be more than a few buckets a site.
-    SiteGrid(const std::vector<Vec2>& sites, double side) : side_(side) {
-        low_ = high_ = sites.empty() ? Vec2{} : sites.front();
-        for (const Vec2& p : sites) {
+    BasicSiteGrid(const std::vector<Vec>& sites, double side) : side_(side) {
+        low_ = high_ = sites.empty() ? Vec{} : sites.front();
+        for (const Vec& p : sites) {
             low_ = glm::min(low_, p);
             high_ = glm::max(high_, p);
         }
         const double buckets_at_most = 64.0 * static_cast<double>(sites.size()) + 64.0;
-        while ((high_.x - low_.x + side_) * (high_.y - low_.y + side_) > buckets_at_most * side_ * side_) side_ *= 2.0;
-        across_ = static_cast<std::ptrdiff_t>((high_.x - low_.x) / side_) + 1;
-        up_ = static_cast<std::ptrdiff_t>((high_.y - low_.y) / side_) + 1;
-        starts_.assign(static_cast<std::size_t>(across_ * up_) + 1, 0);
-        for (const Vec2& p : sites) ++starts_[bucket(column(p.x), row(p.y)) + 1];
+        while (buckets_across() > buckets_at_most) side_ *= kPlane ? 2.0 : 1.25;
+        std::size_t buckets = 1;
+        for (int axis = 0; axis < Vec::length(); ++axis) {
+            across_[axis] = static_cast<std::ptrdiff_t>((high_[axis] - low_[axis]) / side_) + 1;
+            buckets *= static_cast<std::size_t>(across_[axis]);
+        }
+        starts_.assign(buckets + 1, 0);
+        for (const Vec& p : sites) ++starts_[bucket_of(p) + 1];
         for (std::size_t b = 1; b < starts_.size(); ++b) starts_[b] += starts_[b - 1];
         std::vector<std::size_t> next(starts_.begin(), starts_.end() - 1);
         index_.resize(sites.size());
         at_.resize(sites.size());
         for (std::size_t i = 0; i < sites.size(); ++i) {
-            const std::size_t place = next[bucket(column(sites[i].x), row(sites[i].y))]++;
+            const std::size_t place = next[bucket_of(sites[i])]++;
             index_[place] = i;
             at_[place] = sites[i];
         }
@@ -38,49 +43,71 @@ class SiteGrid {
 
     /// Calls visit(index, position) for the sites in the buckets within `rings` of p's, lower index first in a bucket.
     template <class Visit>
-    void near(const Vec2& p, std::ptrdiff_t rings, const Visit& visit) const {
-        const std::ptrdiff_t c = column(p.x), r = row(p.y);
-        const std::ptrdiff_t first = std::max<std::ptrdiff_t>(c - rings, 0), last = std::min(c + rings, across_ - 1);
-        for (std::ptrdiff_t y = std::max<std::ptrdiff_t>(r - rings, 0); y <= std::min(r + rings, up_ - 1); ++y) {
-            if (first > last) break;
-            const std::size_t end = starts_[bucket(last, y) + 1];
-            for (std::size_t k = starts_[bucket(first, y)]; k < end; ++k) visit(index_[k], at_[k]);
+    void near(const Vec& p, std::ptrdiff_t rings, const Visit& visit) const {
+        const Range x = range(p, 0, rings), y = range(p, 1, rings), z = range(p, kPlane ? 1 : 2, kPlane ? 0 : rings);
+        for (std::ptrdiff_t level = kPlane ? 0 : z.first; level <= (kPlane ? 0 : z.last); ++level) {
+            for (std::ptrdiff_t row = y.first; row <= y.last; ++row) {
+                const auto line = static_cast<std::size_t>((level * across_[1] + row) * across_[0]);
+                const std::size_t end = starts_[line + static_cast<std::size_t>(x.last) + 1];
+                for (std::size_t k = starts_[line + static_cast<std::size_t>(x.first)]; k < end; ++k) {
+                    visit(index_[k], at_[k]);
+                }
+            }
         }
     }
 
     /// The nearest site; of equally near ones the lowest index. There must be one.
-    [[nodiscard]] std::size_t nearest(const Vec2& p) const {
+    [[nodiscard]] std::size_t nearest(const Vec& p) const {
         std::size_t best = 0;
         double squared = 1e300;
+        std::ptrdiff_t widest = across_[0];
+        for (int axis = 1; axis < Vec::length(); ++axis) widest += across_[axis];
         for (std::ptrdiff_t rings = 1;; rings *= 2) {
-            near(p, rings, [&](std::size_t i, const Vec2& site) {
-                const Vec2 d = site - p;
+            near(p, rings, [&](std::size_t i, const Vec& site) {
+                const Vec d = site - p;
                 const double now = glm::dot(d, d);
                 if (now > squared || (now == squared && i > best)) return;
                 best = i;
                 squared = now;
             });
             const double reach = static_cast<double>(rings) * side_;
-            if (squared <= reach * reach || rings > across_ + up_) return best;
+            if (squared <= reach * reach || rings > widest) return best;
         }
     }
 
   private:
-    [[nodiscard]] std::ptrdiff_t column(double x) const {
-        return static_cast<std::ptrdiff_t>(std::clamp((x - low_.x) / side_, 0.0, static_cast<double>(across_ - 1)));
+    static constexpr bool kPlane = Vec::length() == 2;
+    struct Range {
+        std::ptrdiff_t first, last;
+    };
+
+    [[nodiscard]] double buckets_across() const {
+        double product = 1.0;
+        for (int axis = 0; axis < Vec::length(); ++axis) product *= (high_[axis] - low_[axis]) / side_ + 1.0;
+        return product;
     }
-    [[nodiscard]] std::ptrdiff_t row(double y) const {
-        return static_cast<std::ptrdiff_t>(std::clamp((y - low_.y) / side_, 0.0, static_cast<double>(up_ - 1)));
+    [[nodiscard]] std::ptrdiff_t place(double at, int axis) const {
+        const double last = static_cast<double>(across_[axis] - 1);
+        return static_cast<std::ptrdiff_t>(std::clamp((at - low_[axis]) / side_, 0.0, last));
     }
-    [[nodiscard]] std::size_t bucket(std::ptrdiff_t c, std::ptrdiff_t r) const {
-        return static_cast<std::size_t>(r * across_ + c);
+    [[nodiscard]] Range range(const Vec& p, int axis, std::ptrdiff_t rings) const {
+        const std::ptrdiff_t own = place(p[axis], axis);
+        return {std::max<std::ptrdiff_t>(own - rings, 0), std::min(own + rings, across_[axis] - 1)};
+    }
+    [[nodiscard]] std::size_t bucket_of(const Vec& p) const {
+        std::ptrdiff_t bucket = 0;
+        for (int axis = Vec::length() - 1; axis >= 0; --axis) bucket = bucket * across_[axis] + place(p[axis], axis);
+        return static_cast<std::size_t>(bucket);
     }
 
     double side_;
-    Vec2 low_{}, high_{};
-    std::ptrdiff_t across_ = 0, up_ = 0;
+    Vec low_{}, high_{};
+    std::ptrdiff_t across_[3] = {1, 1, 1};
     std::vector<std::size_t> starts_, index_;
-    std::vector<Vec2> at_;
+    std::vector<Vec> at_;
 };
+
+using SiteGrid = BasicSiteGrid<Vec2>;
+using SpaceGrid = BasicSiteGrid<Vec3>;
 
 }  // namespace aerogram::planner

@@ -1,0 +1,161 @@
+#include "planner/mesh/solids.hpp"
+
+#include <cmath>
+#include <functional>
+
+#include "geo/contract.hpp"
+#include "geo/units.hpp"
+
+namespace aerogram::planner {
+namespace {
+
+// Round solids have this many rings from a pole to the rim, and four times as many chords round the rim: their facets
+// are within 2e-4 of the width from the true surface.
+constexpr std::uint32_t kRings = 40;
+constexpr std::uint32_t kChords = 4 * kRings;
+constexpr std::uint32_t kRows = 24, kTubeChords = 64;
+
+/// Radius and height of a ring by its share of the way from the pole to the rim.
+using Profile = std::function<Vec2(double share)>;
+
+Vec3 on_circle(double radius, double share, double height) {
+    const double angle = 2.0 * kPi * share;
+    return {radius * std::cos(angle), radius * std::sin(angle), height};
+}
+
+std::uint32_t add(TriangleMesh& mesh, const Vec3& p) {
+    mesh.vertices.push_back(p);
+    return static_cast<std::uint32_t>(mesh.vertices.size() - 1);
+}
+
+void add_triangle(TriangleMesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c, bool upwards) {
+    if (upwards) {
+        mesh.triangles.push_back({a, b, c});
+    } else {
+        mesh.triangles.push_back({c, b, a});
+    }
+}
+
+/// A cap of rings of 4, 8, 12, ... vertices around a pole, facing up or down. The last ring is `rim` where it is given
+/// (kChords vertices). Returns the last ring.
+std::vector<std::uint32_t> add_cap(TriangleMesh& mesh, const Profile& profile, bool upwards,
+                                   const std::vector<std::uint32_t>& rim = {}) {
+    const auto pole = add(mesh, Vec3(0.0, 0.0, profile(0.0).y));
+    std::vector<std::uint32_t> inner(4, pole), outer;
+    for (std::uint32_t ring = 1; ring <= kRings; ++ring) {
+        const Vec2 at = profile(static_cast<double>(ring) / kRings);
+        outer.clear();
+        for (std::uint32_t i = 0; i < 4 * ring; ++i)
+            outer.push_back(add(mesh, on_circle(at.x, static_cast<double>(i) / (4.0 * ring), at.y)));
+        if (ring == kRings && !rim.empty()) {
+            mesh.vertices.resize(mesh.vertices.size() - outer.size());
+            outer = rim;
+        }
+        for (std::uint32_t quarter = 0; quarter < 4; ++quarter) {
+            for (std::uint32_t k = 0; k < ring; ++k) {
+                const std::uint32_t o = quarter * ring + k, in = quarter * (ring - 1) + k;
+                const auto inner_at = [&](std::uint32_t i) { return ring == 1 ? pole : inner[i % (4 * (ring - 1))]; };
+                const std::uint32_t next = outer[(o + 1) % (4 * ring)];
+                add_triangle(mesh, inner_at(in), outer[o], next, upwards);
+                if (k + 1 < ring) add_triangle(mesh, inner_at(in), next, inner_at(in + 1), upwards);
+            }
+        }
+        inner = outer;
+    }
+    return outer;
+}
+
+/// A wall outwards between two rings, the lower one first.
+void add_wall(TriangleMesh& mesh, const std::vector<std::uint32_t>& low, const std::vector<std::uint32_t>& high) {
+    for (std::size_t i = 0; i < low.size(); ++i) {
+        const std::size_t next = (i + 1) % low.size();
+        mesh.triangles.push_back({low[i], low[next], high[next]});
+        mesh.triangles.push_back({low[i], high[next], high[i]});
+    }
+}
+
+Profile flat(double height) {
+    return [height](double share) { return Vec2(0.5 * share, height); };
+}
+
+/// Of a sphere one unit wide, its equator at `middle`; `up` is 1 for the upper half and -1 for the lower one.
+Profile half_sphere(double middle, double up) {
+    return [middle, up](double share) {
+        const double angle = 0.5 * kPi * share;
+        return Vec2(0.5 * std::sin(angle), share == 1.0 ? middle : middle + 0.5 * up * std::cos(angle));
+    };
+}
+
+}  // namespace
+
+TriangleMesh cube_mesh() {
+    TriangleMesh mesh;
+    for (const double z : {-0.5, 0.5}) {
+        for (const double y : {-0.5, 0.5}) {
+            for (const double x : {-0.5, 0.5}) mesh.vertices.emplace_back(x, y, z);
+        }
+    }
+    mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                      {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+    return mesh;
+}
+
+TriangleMesh sphere_mesh() {
+    TriangleMesh mesh;
+    const auto equator = add_cap(mesh, half_sphere(0.0, 1.0), true);
+    add_cap(mesh, half_sphere(0.0, -1.0), false, equator);
+    return mesh;
+}
+
+TriangleMesh dome_mesh(bool floor) {
+    TriangleMesh mesh;
+    const auto rim = add_cap(mesh, half_sphere(-0.25, 1.0), true);
+    if (floor) add_cap(mesh, flat(-0.25), false, rim);
+    return mesh;
+}
+
+TriangleMesh cylinder_mesh() {
+    TriangleMesh mesh;
+    auto low = add_cap(mesh, flat(-0.5), false);
+    for (std::uint32_t row = 1; row < kRows; ++row) {
+        std::vector<std::uint32_t> high;
+        for (std::uint32_t i = 0; i < kChords; ++i)
+            high.push_back(
+                add(mesh, on_circle(0.5, static_cast<double>(i) / kChords, static_cast<double>(row) / kRows - 0.5)));
+        add_wall(mesh, low, high);
+        low = std::move(high);
+    }
+    add_wall(mesh, low, add_cap(mesh, flat(0.5), true));
+    return mesh;
+}
+
+TriangleMesh cone_mesh() {
+    TriangleMesh mesh;
+    const auto rim = add_cap(
+        mesh, [](double share) { return Vec2(0.5 * share, 0.5 - share); }, true);
+    add_cap(mesh, flat(-0.5), false, rim);
+    return mesh;
+}
+
+TriangleMesh torus_mesh(double tube) {
+    AEROGRAM_REQUIRE(tube > 0.0 && tube < 0.5, tube);
+    TriangleMesh mesh;
+    const auto number = [](std::uint32_t around, std::uint32_t along) {
+        return (around % kChords) * kTubeChords + along % kTubeChords;
+    };
+    for (std::uint32_t i = 0; i < kChords; ++i) {
+        for (std::uint32_t k = 0; k < kTubeChords; ++k) {
+            const Vec3 across = on_circle(0.5 * tube, static_cast<double>(k) / kTubeChords, 0.0);  // x out, y up
+            add(mesh, on_circle(0.5 - 0.5 * tube + across.x, static_cast<double>(i) / kChords, across.y));
+        }
+    }
+    for (std::uint32_t i = 0; i < kChords; ++i) {
+        for (std::uint32_t k = 0; k < kTubeChords; ++k) {
+            mesh.triangles.push_back({number(i, k), number(i + 1, k), number(i + 1, k + 1)});
+            mesh.triangles.push_back({number(i, k), number(i + 1, k + 1), number(i, k + 1)});
+        }
+    }
+    return mesh;
+}
+
+}  // namespace aerogram::planner
