@@ -1,12 +1,16 @@
 #include "planner/formation/area_figure.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
-#include <memory>
+#include <utility>
 
+#include "planner/formation/part_density.hpp"
+#include "planner/formation/solid_figure.hpp"
 #include "planner/sampling/area_sampling.hpp"
 #include "planner/sampling/contour_graph.hpp"
 #include "planner/sampling/contour_track.hpp"
+#include "planner/sampling/lloyd.hpp"
 #include "planner/sampling/slide_apart.hpp"
 #include "planner/sampling/stroke_sampling.hpp"
 
@@ -14,7 +18,8 @@ namespace aerogram::planner {
 namespace {
 
 constexpr std::size_t kSlideRounds = 200;
-constexpr double kAspectStep = 0.01;   ///< of its logarithm
+constexpr std::size_t kPlacesPerPoint = 16, kPlacesAtLeast = 20'000, kPlacesAtMost = 160'000;  ///< of a coverage
+constexpr double kAspectStep = 0.01;                                                           ///< of its logarithm
 constexpr double kCloseCorners = 0.7;  ///< spacings; corners nearer than this are one
 
 /// With the middle of its box at (0, 0).
@@ -36,6 +41,15 @@ Region stretched(const Region& region, const Vec2& stretch) {
     return out;
 }
 
+bool nobody(const Region& region, const DensityField& density) {
+    const DensityRaster raster = rasterised(region, kPlacesAtMost);
+    for (std::size_t c = 0; c < raster.mass.size(); ++c) {
+        const Vec2 at = raster.centre(c % raster.across, c / raster.across);
+        if (raster.mass[c] > 0.0F && density({at.x, 0.0, at.y}) > 0.0) return false;
+    }
+    return true;
+}
+
 }  // namespace
 
 Figure flat_figure(const Vec2& extent, std::function<std::vector<Vec2>(const Vec2& stretch)> sample) {
@@ -55,12 +69,53 @@ Figure flat_figure(const Vec2& extent, std::function<std::vector<Vec2>(const Vec
     return figure;
 }
 
+std::function<double(const Vec3& scale, const Points& points)> area_coverage(std::shared_ptr<const Region> region,
+                                                                             DensityField density) {
+    return [region = std::move(region), density = std::move(density)](const Vec3& scale, const Points& points) {
+        const std::size_t cells = std::clamp(kPlacesPerPoint * points.size(), kPlacesAtLeast, kPlacesAtMost);
+        DensityRaster area = rasterised(stretched(*region, {scale.x, scale.z}), cells);
+        if (density) {
+            const DensityRaster all = area;
+            for (std::size_t c = 0; c < area.mass.size(); ++c) {
+                const Vec2 at = area.centre(c % area.across, c / area.across);
+                if (density({at.x / scale.x, 0.0, at.y / scale.z}) <= 0.0) area.mass[c] = 0.0F;
+            }
+            if (area.total() <= 0.0) area = all;
+        }
+        std::vector<Vec2> sites;
+        sites.reserve(points.size());
+        for (const Vec3& p : points) sites.emplace_back(p.x, p.z);
+        return mean_distance(sites, area);
+    };
+}
+
+Result<Figure> area_figure(const PartRef& ref, Region region, AreaStyle style, std::optional<double> outline_share,
+                           const Run& run) {
+    const std::size_t count = ref.part.drones;
+    if (style == AreaStyle::outline) return outlined_figure(std::move(region), count);
+    if (style == AreaStyle::solid) return ref.error(".style: solid not in this version");
+    if (ref.part.density.even()) return filled_figure(std::move(region), count, outline_share, run);
+    Vec2 extent{};
+    const auto shape = centred(std::move(region), extent);
+    const auto density = density_of(ref, {extent.x, 0.0, extent.y});
+    if (!density) return density.error();
+    if (nobody(*shape, *density)) return ref.error(".density: is 0 all over the shape, so that nobody could be there");
+    Figure figure = flat_figure(extent, [shape, count, outline_share, density = *density, run](const Vec2& stretch) {
+        const auto there = [&](const Vec2& p) { return density({p.x / stretch.x, 0.0, p.y / stretch.y}); };
+        return sample_region(stretched(*shape, stretch), count, outline_share, there, run);
+    });
+    figure.coverage = area_coverage(shape, *density);
+    return figure;
+}
+
 Figure filled_figure(Region region, std::size_t count, std::optional<double> outline_share, const Run& run) {
     Vec2 extent{};
     const auto shape = centred(std::move(region), extent);
-    return flat_figure(extent, [shape, count, outline_share, run](const Vec2& stretch) {
+    Figure figure = flat_figure(extent, [shape, count, outline_share, run](const Vec2& stretch) {
         return sample_region(stretched(*shape, stretch), count, outline_share, run);
     });
+    figure.coverage = area_coverage(shape, {});
+    return figure;
 }
 
 Figure outlined_figure(Region region, std::size_t count) {

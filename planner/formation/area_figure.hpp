@@ -1,10 +1,12 @@
 #pragma once
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "geo/result.hpp"
 #include "planner/formation/figure.hpp"
+#include "planner/sampling/density_field.hpp"
 #include "planner/sampling/region.hpp"
 
 namespace aerogram::planner {
@@ -15,8 +17,16 @@ namespace aerogram::planner {
 /// along x and y.
 [[nodiscard]] Figure flat_figure(const Vec2& extent, std::function<std::vector<Vec2>(const Vec2& stretch)> sample);
 
+/// Figure::coverage of an area by points in the plane y = 0: its places are about sixteen cells a point.
+/// @param region  its box's middle at (0, 0). @param density  places where it is 0 do not count; empty: all count.
+[[nodiscard]] std::function<double(const Vec3& scale, const Points& points)> area_coverage(
+    std::shared_ptr<const Region> region, DensityField density);
+
 /// A region in the style that a part asks for: outline, fill (by the part's density) or solid.
-/// @param region  of positive area, its y is z. Errors: as density_of and extruded_figure.
+/// @param region  of positive area, its y is z. @param outline_share  fills only; with a density and without a share
+/// the outline has no drones of its own.
+/// Properties: (1) without a density a fill is filled_figure to the bit. Errors: as density_of and extruded_figure; a
+/// density that is 0 all over the region.
 Result<Figure> area_figure(const PartRef& ref, Region region, AreaStyle style, std::optional<double> outline_share,
                            const Run& run);
 

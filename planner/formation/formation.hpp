@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,10 @@ struct Formation {
     std::vector<std::uint32_t> part;  ///< index into Keyframe::parts; their number for spare slots
     std::vector<bool> spare;          ///< the drone waits here, dark: the parts do not need it
     double smallest_spacing_m = 0.0;  ///< in the separation metric; 0 for a single slot; spare slots count
-    std::string note;                 ///< what people should know, for reports; may be empty
+    /// One a part: how far a place of the area, surface or volume that it shows is from its nearest drone, on average
+    /// (paper 003, equation 4, divided by the number of places); absent: it shows lines or points.
+    std::vector<std::optional<double>> coverage_m;
+    std::string note;  ///< what people should know, for reports; may be empty
 };
 
 /// The formation of mission.keyframes[index]: exactly fleet.drones slots, in a stable order, placed in the show frame:

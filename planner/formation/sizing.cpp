@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 #include <sstream>
 #include <utility>
 
@@ -18,21 +17,6 @@ double rounded_up(double size_m) {
 
 double longest_side(const Figure& figure) {
     return std::max({figure.extent.x, figure.extent.y, figure.extent.z});
-}
-
-/// What a mission's size asks for; nothing when it names no side that the figure has.
-std::optional<Vec3> asked_scale(const Figure& figure, const Size& size) {
-    const std::array<std::optional<double>, 3> wanted{size.width_m, size.depth_m, size.height_m};
-    std::array<std::optional<double>, 3> scale;
-    std::optional<double> smallest;
-    for (int axis = 0; axis < 3; ++axis) {
-        const auto a = static_cast<std::size_t>(axis);
-        if (!wanted[a] || figure.extent[axis] <= 0.0) continue;
-        scale[a] = *wanted[a] / figure.extent[axis];
-        smallest = std::min(smallest.value_or(*scale[a]), *scale[a]);
-    }
-    if (!smallest) return std::nullopt;
-    return Vec3(scale[0].value_or(*smallest), scale[1].value_or(*smallest), scale[2].value_or(*smallest));
 }
 
 Points times(Points points, double factor) {
@@ -64,8 +48,22 @@ std::string as_written(const Vec3& size_m, bool flat_lists) {
 
 }  // namespace
 
+std::optional<Vec3> asked_scale(const Vec3& extent, const Size& size) {
+    const std::array<std::optional<double>, 3> wanted{size.width_m, size.depth_m, size.height_m};
+    std::array<std::optional<double>, 3> scale;
+    std::optional<double> smallest;
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto a = static_cast<std::size_t>(axis);
+        if (!wanted[a] || extent[axis] <= 0.0) continue;
+        scale[a] = *wanted[a] / extent[axis];
+        smallest = std::min(smallest.value_or(*scale[a]), *scale[a]);
+    }
+    if (!smallest) return std::nullopt;
+    return Vec3(scale[0].value_or(*smallest), scale[1].value_or(*smallest), scale[2].value_or(*smallest));
+}
+
 SizedFigure sized(const Figure& figure, const Size& size, double spacing_m, const SpacingOf& spacing_of) {
-    if (const auto scale = asked_scale(figure, size)) return {figure.points(*scale), *scale};
+    if (const auto scale = asked_scale(figure.extent, size)) return {figure.points(*scale), *scale};
     SizedFigure out{figure.points(Vec3(1.0)), Vec3(1.0)};
     const double longest = longest_side(figure);
     if (figure.in_metres || longest <= 0.0) return out;

@@ -1,5 +1,6 @@
 #pragma once
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "geo/vec3.hpp"
@@ -19,9 +20,12 @@ struct SizedFigure {
     Vec3 scale{1.0};
 };
 
-/// A figure stretched to `size`; absent components follow the aspect (of two that are given, the smaller scale).
-/// Without any: as it is when its unit is the metre, else the smallest size that holds `spacing_m`, its longest side
-/// rounded up to 0.1 m (one point alone: a longest side of spacing_m).
+/// How a mission's size stretches a figure of that natural extent; absent where it names no side that the figure has.
+/// Absent components follow the aspect (of two that are given, the smaller scale).
+[[nodiscard]] std::optional<Vec3> asked_scale(const Vec3& extent, const Size& size);
+
+/// A figure stretched to `size` (asked_scale). Without any: as it is when its unit is the metre, else the smallest size
+/// that holds `spacing_m`, its longest side rounded up to 0.1 m (one point alone: a longest side of spacing_m).
 [[nodiscard]] SizedFigure sized(const Figure& figure, const Size& size, double spacing_m, const SpacingOf& spacing_of);
 
 /// The size with the same aspect, in steps of 0.1 m, at which a figure too narrow now holds `spacing_m`, as a mission

@@ -15,6 +15,7 @@ constexpr std::size_t kCellsPerPoint = 64, kCellsAtLeast = 40'000, kCellsAtMost 
 constexpr std::size_t kLloydRounds = 20, kPushRounds = 240, kPushRoundsAtMost = 1000;
 constexpr std::size_t kPushWork = 1'000'000;     ///< points x rounds that may be spent when there are few points
 constexpr double kHexagon = 0.8660254037844386;  ///< area of a lattice's cell at spacing 1
+constexpr double kMostCellsByDensity = 3e6;      ///< where it gathers in a small part of the region
 constexpr double kReached = 0.86;  ///< share of the triangular lattice's density that relaxed points reach
 
 /// The spacing at which outline and inside together hold `count` points, and the outline's points then.
@@ -73,6 +74,27 @@ void fill_up(std::vector<Vec2>& points, std::size_t count, const DensityRaster& 
     push_apart(points, fixed, raster, std::sqrt(area / (kHexagon * static_cast<double>(count))), rounds, run);
 }
 
+/// The region's cells, each with as much of the density as is inside.
+DensityRaster weighed(const Region& region, std::size_t cells, const std::function<double(const Vec2&)>& density) {
+    DensityRaster raster = rasterised(region, cells);
+    for (std::size_t c = 0; c < raster.mass.size(); ++c) {
+        if (raster.mass[c] <= 0.0F) continue;
+        raster.mass[c] *=
+            static_cast<float>(std::max(density(raster.centre(c % raster.across, c / raster.across)), 0.0));
+    }
+    return raster;
+}
+
+/// The share of the cells inside that would hold all mass were it as high everywhere as where the drones are.
+double filled_share(const DensityRaster& raster, std::size_t cells_inside) {
+    double sum = 0.0, squares = 0.0;
+    for (const float m : raster.mass) {
+        sum += static_cast<double>(m);
+        squares += static_cast<double>(m) * static_cast<double>(m);
+    }
+    return squares > 0.0 ? sum * sum / squares / static_cast<double>(cells_inside) : 1.0;
+}
+
 }  // namespace
 
 std::size_t cells_for(std::size_t count) {
@@ -91,6 +113,26 @@ std::vector<Vec2> sample_region(const Region& region, std::size_t count, std::op
                         : balanced_outline(region, area, count);
     if (points.size() > count) points.clear();  // too few drones for an outline
     fill_up(points, count, raster, run);
+    return points;
+}
+
+std::vector<Vec2> sample_region(const Region& region, std::size_t count, std::optional<double> outline_share,
+                                const std::function<double(const Vec2&)>& density, const Run& run) {
+    AEROGRAM_REQUIRE(count >= 1);
+    const std::size_t cells = cells_for(count);
+    DensityRaster raster = weighed(region, cells, density);
+    const double wanted = std::min(static_cast<double>(cells) / filled_share(raster, cells), kMostCellsByDensity);
+    if (wanted > 2.0 * static_cast<double>(cells)) raster = weighed(region, static_cast<std::size_t>(wanted), density);
+    if (raster.total() <= 0.0) raster = rasterised(region, cells);
+    std::vector<Vec2> points;
+    if (outline_share && count > 1)
+        points = outline_of(region, static_cast<std::size_t>(*outline_share * static_cast<double>(count)));
+    std::erase_if(points, [&](const Vec2& p) { return density(p) <= 0.0; });
+    const std::size_t fixed = points.size();
+    if (fixed == count) return points;
+    const std::vector<Vec2> inside = spread_by_mass(raster, count - fixed);
+    points.insert(points.end(), inside.begin(), inside.end());
+    relax(points, fixed, raster, kLloydRounds, run);
     return points;
 }
 

@@ -105,6 +105,13 @@ double coverage_cost(const std::vector<Vec2>& sites, const DensityRaster& densit
     return cost * density.cell * density.cell;
 }
 
+double mean_distance(const std::vector<Vec2>& sites, const DensityRaster& area) {
+    double cost = 0.0;
+    for_each_owned(sites, area, bucket_side(area, sites.size()),
+                   [&](std::size_t i, const Vec2& p, double mass) { cost += mass * glm::distance(p, sites[i]); });
+    return cost / area.total();
+}
+
 std::vector<Vec2> spread_by_mass(const DensityRaster& density, std::size_t count) {
     struct Place {
         std::uint64_t along;

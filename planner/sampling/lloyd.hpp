@@ -21,6 +21,10 @@ void relax(std::vector<Vec2>& sites, std::size_t fixed, const DensityRaster& den
 /// The coverage cost: integral of the squared distance to the nearest site, weighted by the density.
 [[nodiscard]] double coverage_cost(const std::vector<Vec2>& sites, const DensityRaster& density);
 
+/// How far a place is from the nearest site, on average: paper 003, equation 4, divided by the number of places.
+/// @param sites  at least one. @param area  with some mass; a cell counts by its mass.
+[[nodiscard]] double mean_distance(const std::vector<Vec2>& sites, const DensityRaster& area);
+
 /// `count` places spread by mass along a line that folds through the area (Hilbert's curve): a start for relax.
 [[nodiscard]] std::vector<Vec2> spread_by_mass(const DensityRaster& density, std::size_t count);
 

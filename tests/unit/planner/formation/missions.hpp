@@ -5,6 +5,7 @@
 
 #include "planner/formation/formation.hpp"
 #include "planner/mission/mission.hpp"
+#include "planner/sampling/closest_pair.hpp"
 
 /// Missions made by hand for the tests of formations.
 namespace aerogram::planner::testing {
