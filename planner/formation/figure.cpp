@@ -13,6 +13,7 @@ Result<Figure> figure_of(const PartRef& ref, const Run& run) {
     if (const auto* image = std::get_if<ImageSource>(&ref.part.source)) return image_figure(ref, *image, run);
     if (const auto* csv = std::get_if<CsvSource>(&ref.part.source)) return csv_figure(ref, *csv);
     if (const auto* shape = std::get_if<ShapeSource>(&ref.part.source)) return shape_figure(ref, *shape, run);
+    if (const auto* sketch = std::get_if<SketchSource>(&ref.part.source)) return sketch_figure(ref, *sketch, run);
     return ref.error(": source not in this version");
 }
 
