@@ -6,6 +6,7 @@
 
 #include "planner/assignment/assignment.hpp"
 #include "planner/formation/formation.hpp"
+#include "planner/formation_match.hpp"
 #include "planner/gather.hpp"
 #include "planner/group_match.hpp"
 #include "planner/hold_motion.hpp"
@@ -45,6 +46,7 @@ Result<Assignment> assign(const Mission& mission, const Route& route, const Keyf
         case Assign::slots:  // of the first keyframe: there were no slots before
             return assign_keep(from_m, formation.points_m, rules, metric);
         case Assign::formation_coordinates:
+            return assign_formation_coordinates(from_m, formation.points_m, formation.spare, rules, metric, run);
         case Assign::groups:
             break;
     }
