@@ -4,11 +4,15 @@
 #include <array>
 #include <cmath>
 #include <tuple>
+#include <utility>
+
+#include "geo/units.hpp"
 
 namespace aerogram::planner {
 namespace {
 
 constexpr double kSharpCosine = 0.8660254037844387;  ///< of 30 degrees
+constexpr double kSpike = 0.8 * 2.0 * kPi;           ///< at a spike the triangles' angles have a smaller sum
 
 struct Side {
     std::uint32_t low, high, triangle;
@@ -51,6 +55,21 @@ std::vector<Pair> sharp_pairs(const TriangleMesh& mesh) {
     return out;
 }
 
+/// Vertices around which the surface lacks this much of a full turn: a cube's corner lacks a quarter.
+std::vector<bool> spikes(const TriangleMesh& mesh) {
+    std::vector<double> turn(mesh.vertices.size(), 0.0);
+    for (const auto& t : mesh.triangles) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vec3 a = mesh.vertices[t[(k + 1) % 3]] - mesh.vertices[t[k]];
+            const Vec3 b = mesh.vertices[t[(k + 2) % 3]] - mesh.vertices[t[k]];
+            turn[t[k]] += std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
+        }
+    }
+    std::vector<bool> out;
+    for (const double angle : turn) out.push_back(angle > 0.0 && angle < kSpike);
+    return out;
+}
+
 /// The sharp edges at each vertex.
 class Net {
   public:
@@ -70,7 +89,9 @@ class Net {
 
     SharpEdges lines() {
         SharpEdges out;
+        const std::vector<bool> spike = spikes(mesh_);
         for (std::uint32_t v = 0; v < mesh_.vertices.size(); ++v) {
+            if (degree(v) == 0 && spike[v]) out.tips.push_back(v);
             if (!is_corner(v)) continue;
             out.corners.push_back(v);
             if (degree(v) > 2) out.tips.push_back(v);

@@ -16,7 +16,7 @@ struct SharpLine {
 struct SharpEdges {
     std::vector<SharpLine> lines;
     std::vector<std::uint32_t> corners;  ///< where lines end: other than two meet, or they turn by more than 30 degrees
-    std::vector<std::uint32_t> tips;     ///< the corners where three or more lines meet
+    std::vector<std::uint32_t> tips;     ///< corners where three or more lines meet, and spikes like a cone's
 };
 /// Cost: O(n log n) for n triangles.
 [[nodiscard]] SharpEdges sharp_edges_of(const TriangleMesh& mesh);

@@ -1,5 +1,6 @@
 #include "planner/mesh/solids.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -13,6 +14,8 @@ namespace {
 // are within 2e-4 of the width from the true surface.
 constexpr std::uint32_t kRings = 40;
 constexpr std::uint32_t kChords = 4 * kRings;
+constexpr std::uint32_t kInnermost =
+    6;  ///< chords in a quarter of the rings near the pole, so that a cone is round there
 constexpr std::uint32_t kRows = 24, kTubeChords = 64;
 
 /// Radius and height of a ring by its share of the way from the pole to the rim.
@@ -36,29 +39,33 @@ void add_triangle(TriangleMesh& mesh, std::uint32_t a, std::uint32_t b, std::uin
     }
 }
 
-/// A cap of rings of 4, 8, 12, ... vertices around a pole, facing up or down. The last ring is `rim` where it is given
-/// (kChords vertices). Returns the last ring.
+/// The triangles of a quarter between a ring with `inner` chords in a quarter and the next one with as many or one
+/// more.
+template <class At, class Next>
+void add_quarter(TriangleMesh& mesh, std::uint32_t inner, std::uint32_t outer, const At& in, const Next& out,
+                 bool upwards) {
+    for (std::uint32_t k = 0; k < outer; ++k) {
+        add_triangle(mesh, in(k), out(k), out(k + 1), upwards);
+        if (k < inner) add_triangle(mesh, in(k), out(k + 1), in(k + 1), upwards);
+    }
+}
+
+/// A cap of rings around a pole, facing up or down; the n-th ring has 4n chords, and those near the pole more. The last
+/// ring is `rim` where it is given (kChords vertices). Returns the last ring.
 std::vector<std::uint32_t> add_cap(TriangleMesh& mesh, const Profile& profile, bool upwards,
                                    const std::vector<std::uint32_t>& rim = {}) {
-    const auto pole = add(mesh, Vec3(0.0, 0.0, profile(0.0).y));
-    std::vector<std::uint32_t> inner(4, pole), outer;
+    std::vector<std::uint32_t> inner(1, add(mesh, Vec3(0.0, 0.0, profile(0.0).y))), outer;
     for (std::uint32_t ring = 1; ring <= kRings; ++ring) {
+        const std::uint32_t quarter = std::max(ring, kInnermost), chords = 4 * quarter;
         const Vec2 at = profile(static_cast<double>(ring) / kRings);
-        outer.clear();
-        for (std::uint32_t i = 0; i < 4 * ring; ++i)
-            outer.push_back(add(mesh, on_circle(at.x, static_cast<double>(i) / (4.0 * ring), at.y)));
-        if (ring == kRings && !rim.empty()) {
-            mesh.vertices.resize(mesh.vertices.size() - outer.size());
-            outer = rim;
-        }
-        for (std::uint32_t quarter = 0; quarter < 4; ++quarter) {
-            for (std::uint32_t k = 0; k < ring; ++k) {
-                const std::uint32_t o = quarter * ring + k, in = quarter * (ring - 1) + k;
-                const auto inner_at = [&](std::uint32_t i) { return ring == 1 ? pole : inner[i % (4 * (ring - 1))]; };
-                const std::uint32_t next = outer[(o + 1) % (4 * ring)];
-                add_triangle(mesh, inner_at(in), outer[o], next, upwards);
-                if (k + 1 < ring) add_triangle(mesh, inner_at(in), next, inner_at(in + 1), upwards);
-            }
+        outer = ring == kRings ? rim : std::vector<std::uint32_t>{};
+        for (std::uint32_t i = 0; outer.size() < chords; ++i)
+            outer.push_back(add(mesh, on_circle(at.x, static_cast<double>(i) / chords, at.y)));
+        const std::uint32_t within = ring == 1 ? 0 : std::max(ring - 1, kInnermost);
+        for (std::uint32_t q = 0; q < 4; ++q) {
+            const auto in = [&](std::uint32_t k) { return inner[(q * within + k) % inner.size()]; };
+            const auto out = [&](std::uint32_t k) { return outer[(q * quarter + k) % chords]; };
+            add_quarter(mesh, within, quarter, in, out, upwards);
         }
         inner = outer;
     }

@@ -12,9 +12,11 @@ namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kFirst = 1.08,
-                 kLast = 0.80;         ///< targets, shares of the gap that three quarters of the points have not
-constexpr double kStep = 0.45;         ///< share of an overlap that one point yields
-constexpr double kStrideAtMost = 0.3;  ///< of the target, in one round
+                 kLast = 0.80;  ///< targets, shares of the gap that three quarters of the points have not
+constexpr double kStep = 0.45;  ///< share of an overlap that one point yields
+constexpr std::size_t kRounds = 160, kRoundsAtMost = 800;
+constexpr std::size_t kWork = 800'000;  ///< points x rounds that may be spent when there are few points
+constexpr double kStrideAtMost = 0.3;   ///< of the target, in one round
 
 /// For each point the distance of its nearest neighbour, as a multiple of its reach.
 std::vector<double> gaps(const Points& points, const std::vector<double>& reach) {
@@ -67,6 +69,10 @@ double smallest_share(const Points& points, const std::vector<double>& reach) {
     if (points.size() < 2) return kInfinite;
     const std::vector<double> all = gaps(points, reach);
     return *std::min_element(all.begin(), all.end());
+}
+
+std::size_t spread_rounds(std::size_t count) {
+    return std::clamp(kWork / count, kRounds, kRoundsAtMost);
 }
 
 void spread_apart(Points& points, const std::vector<double>& reach, const Ground& ground, std::size_t rounds,

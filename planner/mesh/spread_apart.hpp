@@ -39,6 +39,9 @@ struct Ground {
 /// The smallest distance of two points as a multiple of the smaller of their reaches; infinite for fewer than two.
 [[nodiscard]] double smallest_share(const Points& points, const std::vector<double>& reach);
 
+/// How many rounds `count` points deserve: more when there are few.
+[[nodiscard]] std::size_t spread_rounds(std::size_t count);
+
 /// Widens the smallest distance in space of points that are about evenly spread, as push_apart.hpp does in the plane:
 /// pairs nearer than a target slide apart on their ground, the target falling from what the widest gaps promise to what
 /// can be reached; the round with the widest smallest distance is kept. Points on the two sides of a thin wall come to

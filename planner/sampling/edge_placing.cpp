@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <queue>
 #include <utility>
 
 namespace aerogram::planner {
@@ -102,6 +103,26 @@ std::vector<Vec2> points_along(const std::vector<Vec2>& path_points, std::size_t
     std::vector<Vec2> out;
     for (std::size_t i = 0; i < count; ++i) out.push_back(path.point(spread, i, count));
     return out;
+}
+
+std::vector<std::size_t> points_inside(const std::vector<double>& lengths, std::size_t count) {
+    struct Gap {
+        double width;
+        std::size_t edge;
+        bool operator<(const Gap& other) const {
+            return width != other.width ? width < other.width : edge > other.edge;
+        }
+    };
+    std::priority_queue<Gap> gaps;
+    for (std::size_t e = 0; e < lengths.size(); ++e) gaps.push({lengths[e] / 2.0, e});
+    std::vector<std::size_t> inside(lengths.size(), 0);
+    for (; count > 0; --count) {
+        const std::size_t edge = gaps.top().edge;
+        gaps.pop();
+        ++inside[edge];
+        gaps.push({lengths[edge] / static_cast<double>(inside[edge] + 2), edge});
+    }
+    return inside;
 }
 
 double length_of(const std::vector<Vec2>& path) {

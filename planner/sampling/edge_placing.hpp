@@ -16,6 +16,11 @@ namespace aerogram::planner {
 [[nodiscard]] std::vector<Vec2> points_along(const std::vector<Vec2>& path, std::size_t count,
                                              const std::vector<Vec2>& others);
 
+/// How many of `count` points go between the ends of each line so that the smallest gap is as wide as can be: the next
+/// one always goes where the gaps are then the widest; ties go to the earlier line.
+/// @param lengths  at least one. Cost: O(count * log lines).
+[[nodiscard]] std::vector<std::size_t> points_inside(const std::vector<double>& lengths, std::size_t count);
+
 [[nodiscard]] double length_of(const std::vector<Vec2>& path);
 
 }  // namespace aerogram::planner

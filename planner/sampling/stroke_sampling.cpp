@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <queue>
 
 #include "planner/sampling/edge_placing.hpp"
 
@@ -33,28 +32,6 @@ std::vector<bool> occupied_stations(const std::vector<Station>& stations, const 
         if (!all) break;
     }
     return taken;
-}
-
-/// How many points go between the stations of each edge: the next one always goes where the gaps are then the
-/// widest, which makes the smallest gap as wide as can be; ties go to the earlier edge.
-std::vector<std::size_t> points_inside(const std::vector<double>& lengths, std::size_t count) {
-    struct Gap {
-        double width;
-        std::size_t edge;
-        bool operator<(const Gap& other) const {
-            return width != other.width ? width < other.width : edge > other.edge;
-        }
-    };
-    std::priority_queue<Gap> gaps;
-    for (std::size_t e = 0; e < lengths.size(); ++e) gaps.push({lengths[e] / 2.0, e});
-    std::vector<std::size_t> inside(lengths.size(), 0);
-    for (; count > 0; --count) {
-        const std::size_t edge = gaps.top().edge;
-        gaps.pop();
-        ++inside[edge];
-        gaps.push({lengths[edge] / static_cast<double>(inside[edge] + 2), edge});
-    }
-    return inside;
 }
 
 }  // namespace
