@@ -93,7 +93,7 @@ Result<Figure> area_figure(const PartRef& ref, Region region, AreaStyle style, s
                            const Run& run) {
     const std::size_t count = ref.part.drones;
     if (style == AreaStyle::outline) return outlined_figure(std::move(region), count);
-    if (style == AreaStyle::solid) return ref.error(".style: solid not in this version");
+    if (style == AreaStyle::solid) return extruded_figure(ref, region, run);
     if (ref.part.density.even()) return filled_figure(std::move(region), count, outline_share, run);
     Vec2 extent{};
     const auto shape = centred(std::move(region), extent);
