@@ -11,6 +11,7 @@
 #include "planner/gather.hpp"
 #include "planner/leg.hpp"
 #include "planner/leg_motion.hpp"
+#include "planner/light/lights.hpp"
 #include "planner/retrace.hpp"
 #include "planner/riding.hpp"
 #include "planner/route.hpp"
@@ -128,7 +129,7 @@ Status go_home_safely(const Mission& mission, const Route& route, std::vector<Le
 Result<Flown> plan_standing(const Mission& mission, const Run& run) {
     auto route = build_route(mission, run);
     if (!route) return route.error();
-    Flown flown{legs_of(mission, *route), {}, {}};
+    Flown flown{legs_of(mission, *route), {}, {}, route->groups};
     auto motions = plan_legs_with_swaps(mission, *route, flown.legs, run);
     if (!motions) return motions.error();
     if (auto done = go_home_safely(mission, *route, flown.legs, *motions, run); !done) return done.error();
@@ -169,7 +170,10 @@ Result<FlightPlan> plan(const Mission& mission, const PlanOptions& options, cons
     plan.airspace = mission.airspace;
     plan.endurance_s = mission.fleet.endurance_s;
     plan.pads_m = mission.fleet.pads_m;
-    plan.tracks = build_tracks(timeline.keyframes, timeline.acts, mission.fleet.drones);
+    auto tracks = lit_tracks(mission, {timeline.keyframes, timeline.acts, flown->groups},
+                             build_tracks(timeline.keyframes, timeline.acts, mission.fleet.drones), run);
+    if (!tracks) return tracks.error();
+    plan.tracks = std::move(*tracks);
     if (mission.fleet.vehicle == Vehicle::plane) {
         for (std::size_t d = 0; d < plan.tracks.size(); ++d)
             plan.tracks[d].yaw = noses_forward(timeline.acts, DroneId(d));

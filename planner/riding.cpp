@@ -104,11 +104,14 @@ Result<Ride> ride_timeline(const Mission& mission, const Mission& placed, const 
 }
 
 /// Keyframes as they stand when their time begins.
-void carry_keyframes(const Ride& ride, Millis begin_ms, std::vector<PlannedKeyframe>& keyframes) {
+/// @param turned_rad  at the start of the route.
+void carry_keyframes(const Ride& ride, Millis begin_ms, double turned_rad, std::vector<PlannedKeyframe>& keyframes) {
     for (PlannedKeyframe& keyframe : keyframes) {
+        keyframe.turned_rad = turned_rad;
         if (keyframe.stands_from_ms < begin_ms) continue;
-        for (Vec3& p : keyframe.formation_m)
-            p = ride.carrier.carried(p, seconds_from_ms(keyframe.stands_from_ms - begin_ms));
+        const double ridden_s = seconds_from_ms(keyframe.stands_from_ms - begin_ms);
+        keyframe.turned_rad += ride.carrier.turned_rad(ridden_s);
+        for (Vec3& p : keyframe.formation_m) p = ride.carrier.carried(p, ridden_s);
     }
 }
 
@@ -146,7 +149,7 @@ Result<Flown> plan_riding(const Mission& mission, const Run& run) {
     const auto route = build_route(*placed, run);
     if (!route) return route.error();
     const std::vector<Leg> all = legs_of(*placed, *route);
-    Flown flown{legs_until_the_last_formation(all, planes), {}, {}};
+    Flown flown{legs_until_the_last_formation(all, planes), {}, {}, route->groups};
     for (Leg& leg : flown.legs) leg.may_swap = false;  // the ride lengthens legs one by one, as they are
     const Run quiet{run.stop, nullptr, 1};
     auto motions = gather<LegMotion>(flown.legs.size(), run, "transitions",
@@ -160,7 +163,8 @@ Result<Flown> plan_riding(const Mission& mission, const Run& run) {
         flown.reports.push_back((*motions)[l].report);
         flown.reports.back().required_separation_m = required_separation_m(mission, flown.legs[l]);
     }
-    carry_keyframes(*ridden, ridden->acts.front().start_ms, flown.timeline.keyframes);
+    const double turned_rad = mission.carrier->turn ? CarrierPath::through(mission).value().yaw_rad(0.0) : 0.0;
+    carry_keyframes(*ridden, ridden->acts.front().start_ms, turned_rad, flown.timeline.keyframes);
     if (planes) return flown;
     if (auto home = return_home(mission, *route, all, flown, run); !home) return home.error();
     return flown;

@@ -14,6 +14,7 @@ struct Flown {
     std::vector<Leg> legs;
     std::vector<LegReport> reports;  ///< one a leg
     Timeline timeline;
+    std::vector<Group> groups{};  ///< the mission's, clusters filled
 };
 
 /// Plans a show that rides along its carrier's route: everything up to the last formation as if the carrier stood at

@@ -131,6 +131,7 @@ Stop stop_at(const Mission& mission, const Keyframe& keyframe, Formation formati
     stop.assignment = describe(name_of(keyframe.arrive.assign), assignment);
     if (!formation.note.empty()) stop.assignment += "; " + formation.note;
     stop.pairwise = assignment.pairwise;
+    stop.keyframe.spare = std::move(formation.spare);
     stop.keyframe.formation_m = std::move(formation.points_m);
     stop.keyframe.colors = std::move(formation.colors);
     stop.keyframe.slot_of = std::move(assignment.slot_of);

@@ -1,5 +1,6 @@
 #include "planner/timeline.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <sstream>
@@ -161,8 +162,9 @@ std::vector<Tracks> build_tracks(const std::vector<PlannedKeyframe>& keyframes, 
     Millis lifted_ms = 0, over_pad_ms = acts.back().end_ms();
     for (const Act& act : acts) {
         if (act.role == ActRole::takeoff) lifted_ms = act.end_ms();
-        if (act.role == ActRole::landing) over_pad_ms = act.start_ms;
     }
+    const auto landing = std::ranges::find(acts, ActRole::landing, &Act::role);  // the first of its waves
+    if (landing != acts.end()) over_pad_ms = landing->start_ms;
     std::vector<Tracks> tracks(drones);
     for (std::size_t d = 0; d < drones; ++d) {
         auto& keys = tracks[d].lights;

@@ -29,10 +29,17 @@ void leave_room(Limits& limits, Millis tick_ms) {
 
 void place(Keyframe& keyframe, const Vec3& start_m, double yaw_rad) {
     const double c = std::cos(yaw_rad), s = std::sin(yaw_rad);
-    const Vec3 center = keyframe.center_m, drift = keyframe.motion.drift_m;
-    keyframe.center_m = start_m + Vec3{c * center.x - s * center.y, s * center.x + c * center.y, center.z};
+    const auto turned = [c, s](const Vec3& v) { return Vec3{c * v.x - s * v.y, s * v.x + c * v.y, v.z}; };
+    keyframe.center_m = start_m + turned(keyframe.center_m);
     keyframe.rotate_rad.z += yaw_rad;  // the last of the three turns
-    keyframe.motion.drift_m = {c * drift.x - s * drift.y, s * drift.x + c * drift.y, drift.z};
+    keyframe.motion.drift_m = turned(keyframe.motion.drift_m);
+    for (Part& part : keyframe.parts) {
+        auto* gradient = part.color ? std::get_if<Gradient>(&*part.color) : nullptr;
+        if (gradient) gradient->direction = turned(gradient->direction);
+    }
+    if (!keyframe.motion.wave) return;
+    keyframe.motion.wave->amplitude_m = turned(keyframe.motion.wave->amplitude_m);
+    keyframe.motion.wave->direction = turned(keyframe.motion.wave->direction);
 }
 
 }  // namespace

@@ -7,7 +7,9 @@
 #include <numeric>
 #include <sstream>
 
+#include "geo/random.hpp"
 #include "planner/formation/figure.hpp"
+#include "planner/formation/paint.hpp"
 #include "planner/formation/sizing.hpp"
 #include "planner/formation/spare_places.hpp"
 #include "planner/sampling/closest_pair.hpp"
@@ -104,16 +106,30 @@ class Builder {
         for (std::size_t i = 0; i < count; ++i) {
             const Vec3 in_keyframe = part_turn * drawn.points_m[i] + part.center_m;
             out_.points_m.push_back(turn_ * in_keyframe + keyframe_.center_m);
-            const Rgb own = figure->colors.empty() ? Rgb{1.0, 1.0, 1.0} : figure->colors[i];
-            const auto* one = part.color ? std::get_if<Rgb>(&*part.color) : nullptr;
-            out_.colors.push_back(one ? *one : own);
+            out_.colors.push_back(figure->colors.empty() ? Rgb{1.0, 1.0, 1.0} : figure->colors[i]);
             out_.part.push_back(static_cast<std::uint32_t>(p));
             out_.spare.push_back(false);
         }
+        if (const Status colored = paint(ref, p, first); !colored) return colored.error();
         out_.coverage_m.push_back(figure->coverage ? std::optional(figure->coverage(drawn.scale, drawn.points_m))
                                                    : std::nullopt);
         if (!figure->note.empty()) note(alone ? figure->note : "part " + std::to_string(p + 1) + ' ' + figure->note);
         parts_.push_back({std::move(ref), std::move(*figure), std::move(drawn), spacing_of, first});
+        return Done{};
+    }
+
+    /// A part's own paint over its colours. Frames of an animation are dealt the same palette.
+    Status paint(const PartRef& ref, std::size_t p, std::size_t first) {
+        if (!ref.part.color) return Done{};
+        const Points points_m(out_.points_m.begin() + static_cast<std::ptrdiff_t>(first), out_.points_m.end());
+        Random seed(mission_.seed + (std::uint64_t{keyframe_.number} << 32U) + p);
+        auto colors = painted(*ref.part.color, points_m, audience_seat(mission_), seed.bits());
+        if (!colors) {
+            const auto& file = std::get<ProjectedPicture>(*ref.part.color).image;
+            const std::string key = ".color.image = \"" + file.generic_string() + "\": ";
+            return Error{colors.error().code, ref.error(key + colors.error().message).message};
+        }
+        std::ranges::copy(*colors, out_.colors.begin() + static_cast<std::ptrdiff_t>(first));
         return Done{};
     }
 

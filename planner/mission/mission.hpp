@@ -243,7 +243,9 @@ struct HoldMotion {
     double scale = 1.0;     ///< how many times as large it is at the end, about the barycentre
     std::optional<Wave> wave;
 
-    [[nodiscard]] bool moves() const { return spin_rad != 0.0 || drift_m != Vec3{} || scale != 1.0 || wave; }
+    /// Whether it ends otherwise than it began; waves end flat.
+    [[nodiscard]] bool displaces() const { return spin_rad != 0.0 || drift_m != Vec3{} || scale != 1.0; }
+    [[nodiscard]] bool moves() const { return displaces() || wave; }
 };
 
 struct Keyframe {
@@ -305,12 +307,13 @@ struct Light {
     LightBlend blend = LightBlend::replace;
     double opacity = 1.0;  ///< [0, 1]
     double fade_in_s = 0.0, fade_out_s = 0.0;
-    std::optional<std::size_t> group;  ///< only its drones: index into Mission::groups
-    std::optional<LightVolume> volume;
+    std::optional<std::size_t> group;   ///< made for its drones alone, whom it spans: index into Mission::groups
+    std::optional<LightVolume> volume;  ///< a mask: the effect spans the fleet or group all the same
     std::optional<Vec3>
         direction;          ///< sweep, gradient: where they run (absent: x); chase: along it (absent: by slot number)
     double width_m = 5.0;   ///< sweep: of the band that runs through
-    double period_s = 2.0;  ///< sweep, chase, pulse, sparkle, gradient: of one round
+    double period_s = 2.0;  ///< sweep, chase, pulse, sparkle: of one round; gradient: likewise, 0: it stands still, or
+                            ///< follows its colours once in its time
     std::uint32_t length = 5;                   ///< chase: drones in a run
     double share = 0.2;                         ///< sparkle: of the drones that are lit at a time
     bool radial = false;                        ///< sweep, gradient: from the middle outwards

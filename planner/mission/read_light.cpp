@@ -102,7 +102,7 @@ void read_parameters(TableReader& in, Light& out) {
     }
     out.direction = read_direction(in, "direction");
     out.width_m = in.number("width_m", more_than(0.0, 10000.0)).value_or(out.width_m);
-    out.period_s = in.number("period_s", {0.04, 86400.0}).value_or(out.period_s);
+    out.period_s = in.number("period_s", {0.04, 86400.0}).value_or(out.effect == gradient ? 0.0 : out.period_s);
     out.length = static_cast<std::uint32_t>(in.integer("length", 1, 100000).value_or(out.length));
     out.share = in.number("share", {0.0, 1.0, true}).value_or(out.share);
     out.radial = in.flag("radial").value_or(false);

@@ -22,6 +22,8 @@ struct PlannedKeyframe {
     std::vector<SlotId> slot_of;
     Millis stands_from_ms = 0;  ///< the formation stands from here
     Millis stands_to_ms = 0;    ///< to here; equal where a flow passes
+    std::vector<bool> spare{};  ///< by SLOT: the drone waits here, dark; empty: nobody does
+    double turned_rad = 0.0;    ///< how far a carrier has turned the formation from the mission's own axes by then
 };
 
 /// The whole show: acts on one clock from take-off to landing, and what each drone does beside moving.
