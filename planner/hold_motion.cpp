@@ -28,17 +28,33 @@ Vec3 barycentre(const Points& points_m, const std::vector<bool>& still) {
     return moving > 0.0 ? sum / moving : sum;
 }
 
+/// A wave swells over this share of the hold and ebbs over as much.
+constexpr double kSwell = 0.25;
+
+/// How much of a wave is there at share s of the hold: 0 at both ends, 1 between.
+double swell(double s) {
+    const auto smooth = [](double u) { return profile_value(ProfileKind::minimum_jerk, std::clamp(u, 0.0, 1.0)); };
+    return smooth(s / kSwell) * smooth((1.0 - s) / kSwell);
+}
+
+Vec3 wave_at(const Wave& wave, const Vec3& p, double s) {
+    const double crests = glm::dot(p, glm::normalize(wave.direction)) / wave.length_m;
+    return swell(s) * std::sin(2.0 * std::numbers::pi * (wave.cycles * s - crests)) * wave.amplitude_m;
+}
+
 /// The formation at share s of its motion.
 void moved(const Points& formation_m, const Vec3& middle_m, const HoldMotion& motion, const std::vector<bool>& still,
            double s, Vec3* out) {
     const double c = std::cos(s * motion.spin_rad), d = std::sin(s * motion.spin_rad);
+    const double size = 1.0 + s * (motion.scale - 1.0);
     for (std::size_t i = 0; i < formation_m.size(); ++i) {
         if (stays(still, i)) {
             out[i] = formation_m[i];
             continue;
         }
-        const Vec3 arm = formation_m[i] - middle_m;
+        const Vec3 arm = size * (formation_m[i] - middle_m);
         out[i] = middle_m + Vec3{c * arm.x - d * arm.y, d * arm.x + c * arm.y, arm.z} + s * motion.drift_m;
+        if (motion.wave && s > 0.0 && s < 1.0) out[i] += wave_at(*motion.wave, formation_m[i], s);
     }
 }
 
@@ -52,7 +68,9 @@ Points after_hold(const Points& formation_m, const HoldMotion& motion, const std
 
 Lattice hold_lattice(const Points& formation_m, const HoldMotion& motion, const std::vector<bool>& still) {
     // The minimum-jerk clock runs at up to 15/8 of its mean speed: that many more knots.
-    const double turns = std::abs(motion.spin_rad) / (2.0 * std::numbers::pi);
+    // A wave's swell and ebb are a quarter of the hold each: as bent as a turn.
+    const double waves = motion.wave ? motion.wave->cycles + 1.0 : 0.0;
+    const double turns = std::abs(motion.spin_rad) / (2.0 * std::numbers::pi) + waves;
     const auto knots = std::clamp(static_cast<std::size_t>(std::ceil(15.0 / 8.0 * kKnotsPerTurn * turns)) + 1,
                                   kLeastKnots, kMostKnots);
     const Vec3 middle_m = barycentre(formation_m, still);

@@ -39,7 +39,7 @@ struct LegMotion {
 /// a mission line; stopped.
 Result<LegMotion> plan_leg(const Mission& mission, const Route& route, const Leg& leg, const Run& run);
 
-/// The same by one method: straight, spectral or rigid, whatever the leg says.
+/// The same by one method: straight, spectral, rigid or steered, whatever the leg says.
 Result<LegMotion> plan_leg_by(const Mission& mission, const Route& route, const Leg& leg, Method method,
                               const Run& run);
 

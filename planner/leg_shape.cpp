@@ -6,6 +6,7 @@
 
 #include "planner/adjacency/adjacency.hpp"
 #include "planner/motion/profile.hpp"
+#include "planner/steering/steer.hpp"
 #include "planner/transition/hierarchy.hpp"
 
 namespace aerogram::planner {
@@ -38,10 +39,11 @@ Result<GroupMotion> motion_tree(const Mission& mission, const Route& route, cons
         const Group& group = route.groups[move.group];
         if (group.drones.empty()) continue;
         if (!insert(fleet, {group.drones, move.method, move.spectral, move.blend, {}})) {
-            return Error{ErrorCode::invalid_input,
-                         mission.at(leg.how.line, keyframe_key(mission, leg.last) + ".arrive.groups: group \"" + group.name +
-                                                      "\" shares some of its drones with another: groups of one "
-                                                      "arrival must be apart or one inside the other")};
+            return Error{
+                ErrorCode::invalid_input,
+                mission.at(leg.how.line, keyframe_key(mission, leg.last) + ".arrive.groups: group \"" + group.name +
+                                             "\" shares some of its drones with another: groups of one "
+                                             "arrival must be apart or one inside the other")};
         }
     }
     return fleet;
@@ -60,6 +62,40 @@ std::vector<double> starting_order(const Points& from_m, const Points& to_m) {
     const double front = *first, extent = *first - *last;
     for (double& a : along) a = extent > kStandsStill_m ? (front - a) / extent : 0.0;
     return along;
+}
+
+/// The largest groups of the mission that are not the whole fleet and share no drone.
+std::vector<std::vector<DroneId>> steered_groups(const Route& route, std::size_t drones) {
+    std::vector<const Group*> by_size;
+    for (const Group& group : route.groups)
+        if (!group.drones.empty() && group.drones.size() < drones) by_size.push_back(&group);
+    std::ranges::stable_sort(by_size, std::greater{}, [](const Group* group) { return group->drones.size(); });
+    std::vector<bool> taken(drones, false);
+    std::vector<std::vector<DroneId>> out;
+    for (const Group* group : by_size) {
+        if (std::ranges::any_of(group->drones, [&](DroneId d) { return taken[d.value]; })) continue;
+        for (const DroneId d : group->drones) taken[d.value] = true;
+        out.push_back(group->drones);
+    }
+    return out;
+}
+
+/// Paper 002's two-level control among the mission's obstacles. On a carrier these stand where no leg is planned.
+Result<Interpolation> steered(const Mission& mission, const Route& route, const Leg& leg, const Run& run) {
+    const double pads_z_m = std::ranges::max(mission.fleet.pads_m, {}, &Vec3::z).z;
+    const double keep_m = required_separation_m(mission, leg);
+    SteerTask task;
+    task.from_m = leg.from_m;
+    task.to_m = leg.to_m;
+    task.groups = steered_groups(route, leg.from_m.size());
+    task.metric = {mission.limits.downwash};
+    if (!mission.carrier) task.space.airspace = mission.airspace;
+    task.space.floor_z_m = pads_z_m + mission.limits.min_navigation_altitude_m;
+    task.space.ceiling_z_m = pads_z_m + mission.limits.ceiling_m;
+    task.space.keep_m = keep_m;
+    task.spacing_m = std::max(mission.limits.formation_spacing_m, keep_m);
+    task.options = leg.how.steer;
+    return steer(task, run);
 }
 
 }  // namespace
@@ -81,6 +117,12 @@ Result<LegShape> LegShape::of(const Mission& mission, const Route& route, const 
     shape.profile_ = leg.how.profile;
     shape.delay_ = starting_order(leg.from_m, leg.to_m);
     if (method == Method::straight && leg.how.groups.empty()) return shape;
+    if (method == Method::steered) {
+        auto flown = steered(mission, route, leg, run);
+        if (!flown) return flown.error();
+        shape.interpolation_ = std::move(*flown);
+        return shape;
+    }
     auto tree = motion_tree(mission, route, leg, method);
     if (!tree) return tree.error();
     // Obstacles stand where they are in the ground frame; on a carrier that is not where legs are planned.

@@ -16,7 +16,7 @@ namespace aerogram::planner {
 /// A leg's path as its method draws it, before anybody is kept apart: computed once, then sampled at any resolution.
 class LegShape {
   public:
-    /// @param method  straight, spectral or rigid; the leg's groups move in their own ways inside it.
+    /// @param method  straight, spectral, rigid or steered; the leg's groups move in their own ways inside it.
     /// Errors: invalid_input when groups of the arrival overlap; stopped.
     static Result<LegShape> of(const Mission& mission, const Route& route, const Leg& leg, Method method,
                                const Run& run);

@@ -50,7 +50,7 @@ Ways retrace(const Mission& mission, const Route& route, std::span<const Leg> le
         if (!legs[l].arrives) continue;
         const std::size_t k = legs[l].last;
         const HoldMotion& hold = mission.keyframes[k].motion;
-        if (hold.moves()) {
+        if (hold.displaces()) {
             LegReport standing;
             standing.method = "hold";
             add(ways, mission, hold_lattice(route.stops[k].by_drone_m, hold, route.stops[k].still), standing);

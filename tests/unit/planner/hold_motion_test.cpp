@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "geo/random.hpp"
@@ -68,6 +70,50 @@ TEST(HoldMotion, TheFormationTurnsAsABody) {
             EXPECT_NEAR(now[i].z - now[0].z, from_m[i].z - from_m[0].z, 1e-9);
         }
     }
+}
+
+TEST(HoldMotion, ScalesAboutTheBarycentreAndMultipliesDistances) {
+    const Points from_m = cloud(4, 25);
+    HoldMotion motion;
+    motion.scale = 1.6;
+    motion.spin_rad = 0.7;
+    const Points after = after_hold(from_m, motion);
+    Vec3 before_sum{}, after_sum{};
+    for (std::size_t i = 0; i < from_m.size(); ++i) {
+        before_sum += from_m[i];
+        after_sum += after[i];
+        EXPECT_NEAR(glm::distance(after[i], after[0]), 1.6 * glm::distance(from_m[i], from_m[0]), 1e-9);
+    }
+    EXPECT_LT(glm::distance(before_sum, after_sum), 1e-8);
+}
+
+/// In the middle of the hold, where the wave is whole, every drone is where a sine that has run half its cycles says;
+/// before and after it swells and ebbs, and it ends flat.
+TEST(HoldMotion, AWaveRunsAlongItsDirectionAndEndsFlat) {
+    const Points from_m = cloud(5, 25);
+    HoldMotion motion;
+    motion.wave = Wave{{0, 3, 1}, {2, 0, 0}, 12.0, 3.0};
+    EXPECT_TRUE(motion.moves());
+    EXPECT_FALSE(motion.displaces());
+    EXPECT_EQ(after_hold(from_m, motion), from_m);
+    const Act act{"", ActRole::hold, Timing::fixed, 0, 40000, hold_lattice(from_m, motion)};
+    Points now(from_m.size());
+    positions(act, 20.0, now);
+    double largest_m = 0.0;
+    for (std::size_t i = 0; i < now.size(); ++i) {
+        const double phase = kTurn * (1.5 - from_m[i].x / 12.0);
+        EXPECT_LT(glm::distance(now[i], from_m[i] + std::sin(phase) * Vec3(0, 3, 1)), 2e-3);
+    }
+    for (int ms = 0; ms <= 40000; ms += 50) {
+        positions(act, ms / 1000.0, now);
+        for (std::size_t i = 0; i < now.size(); ++i) {
+            const Vec3 off_m = now[i] - from_m[i];
+            EXPECT_NEAR(off_m.x, 0.0, 1e-9);
+            EXPECT_NEAR(off_m.y, 3.0 * off_m.z, 1e-9) << "to and fro along the amplitude";
+            largest_m = std::max(largest_m, glm::length(off_m));
+        }
+    }
+    EXPECT_NEAR(largest_m, std::sqrt(10.0), 2e-3);
 }
 
 }  // namespace
