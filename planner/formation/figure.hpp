@@ -50,7 +50,8 @@ Result<Figure> mesh_figure(const PartRef& ref, const MeshSource& source, const R
 Result<Figure> sketch_figure(const PartRef& ref, const SketchSource& source, const Run& run);
 Result<Figure> csv_figure(const PartRef& ref, const CsvSource& source);
 Result<Figure> shape_figure(const PartRef& ref, const ShapeSource& source, const Run& run);
-/// The shapes with three dimensions and a skin: sphere, dome, cube, torus, cylinder, cone.
+/// The shapes with three dimensions and a skin: sphere, dome, cube, torus, cylinder, cone. The skin of a dome has no
+/// floor; round ones are within 3e-4 of their width.
 Result<Figure> solid_shape_figure(const PartRef& ref, const ShapeSource& source, const Run& run);
 
 }  // namespace aerogram::planner

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 
@@ -111,7 +112,10 @@ double EdgePoints::place(std::size_t count) {
     AEROGRAM_REQUIRE(!none());
     clear();
     Points stations;
-    for (const std::uint32_t v : edges_.corners) stations.push_back(mesh_.vertices[v]);
+    std::vector<std::uint32_t> corners = edges_.tips;
+    std::set_difference(edges_.corners.begin(), edges_.corners.end(), edges_.tips.begin(), edges_.tips.end(),
+                        std::back_inserter(corners));
+    for (const std::uint32_t v : corners) stations.push_back(mesh_.vertices[v]);
     for (const LineTrack& track : tracks_) {
         if (track.closed()) stations.push_back(track.at(0.0));
     }
