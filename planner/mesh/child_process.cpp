@@ -99,8 +99,8 @@ void hold_to(const ChildLimits& limits) {
     ::alarm(limits.wall_s);
 }
 
-[[noreturn]] void be_the_child(int answer_file, ::pid_t parent, const std::function<Result<std::string>()>& work,
-                               const ChildLimits& limits) {
+[[noreturn]] void be_the_child(int answer_file, ::pid_t parent, std::string_view who,
+                               const std::function<Result<std::string>()>& work, const ChildLimits& limits) {
     reset_signals();
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (::getppid() != parent || !shut_files(answer_file)) ::_exit(1);
@@ -123,10 +123,10 @@ void hold_to(const ChildLimits& limits) {
         head.kind = Head::Kind::out_of_memory;
     } catch (const std::exception& thrown) {
         head.kind = Head::Kind::error;
-        bytes = thrown.what();
+        bytes = std::string(who) + ": " + thrown.what();
     } catch (...) {
         head.kind = Head::Kind::error;
-        bytes = "broke off";
+        bytes = std::string(who) + " broke off";
     }
     head.length = bytes.size();
     char front[sizeof head];
@@ -184,7 +184,7 @@ Result<std::string> unpacked(std::string&& answer, std::string_view who, int sta
         case Head::Kind::value:
             return std::move(answer);
         case Head::Kind::error:
-            return Error{head.code, prefix + answer};
+            return Error{head.code, std::move(answer)};
         case Head::Kind::violation:
             throw ContractViolation(answer);
         default:
@@ -202,7 +202,7 @@ Result<std::string> run_in_child(std::string_view who, const std::function<Resul
         return Error{ErrorCode::io, std::string(who) + ": no pipe: " + std::strerror(errno)};
     const ::pid_t parent = ::getpid();
     const ::pid_t child = ::fork();
-    if (child == 0) be_the_child(ends[1], parent, work, limits);
+    if (child == 0) be_the_child(ends[1], parent, who, work, limits);
     const int why = errno;
     ::close(ends[1]);
     if (child < 0) {

@@ -20,7 +20,7 @@ struct ChildLimits {
 /// endless loop, all memory) is an error here and nothing else. The child prints nothing, writes no file and no core,
 /// holds none of our open files, and dies with this thread.
 /// @param work  its answer in bytes, or its error. Runs on a copy of this process: changes it makes stay there.
-/// @param who  begins the messages: "TetGen".
+/// @param who  begins the messages about the child itself: "TetGen".
 /// Errors: those of `work`; invalid_input when the child ends without an answer (says how) or exceeds a limit (says
 /// which); io when the system starts no process; stopped. A ContractViolation in the child is thrown here.
 ///

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <stdexcept>
 #include <string>
 
 #include "geo/contract.hpp"
@@ -36,18 +37,18 @@ void fill(tetgenio& in, const TetgenInput& input) {
     }
 }
 
+/// TetGen's own reading of its letters sets more than the fields they name: quiet, vertices keep their numbers (J),
+/// facets (p), hull (c), shape (q), volume (a), regions (A).
 tetgenbehavior switches(const TetgenInput& input) {
+    std::string letters = "QJ";
+    if (!input.facets.empty()) letters += "p";
+    if (input.fill_hull) letters += "c";
+    if (input.most_volume > 0.0) letters += "qa1A";
     tetgenbehavior b;
-    b.quiet = 1;
-    b.nojettison = 1;  // keeps the numbers of the vertices
-    b.plc = input.facets.empty() ? 0 : 1;
-    b.convex = input.fill_hull ? 1 : 0;
+    if (!b.parse_commandline(letters.data())) throw std::runtime_error("does not know \"" + letters + "\"");
     if (input.most_volume > 0.0) {
-        b.quality = 1;
         b.minratio = kRadiusEdgeRatio;
-        b.fixedvolume = 1;
         b.maxvolume = input.most_volume;
-        b.regionattrib = 1;
     }
     // Facets are joined only where they are in one plane: else a finely bent surface would be flattened.
     b.facet_ang_tol = 179.999'999;
@@ -98,9 +99,9 @@ Result<std::string> in_the_child(const TetgenInput& input) {
     try {
         tetrahedralize(&behaviour, &in, &out);
     } catch (int thrown) {
-        return Error{ErrorCode::invalid_input, reason(thrown)};
+        return Error{ErrorCode::invalid_input, "TetGen " + reason(thrown)};
     }
-    if (out.numberoftetrahedra <= 0) return Error{ErrorCode::invalid_input, "finds no tetrahedron"};
+    if (out.numberoftetrahedra <= 0) return Error{ErrorCode::invalid_input, "TetGen finds no tetrahedron"};
     return packed(out);
 }
 
