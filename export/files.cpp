@@ -10,6 +10,26 @@
 #include "export/descriptor.hpp"
 
 namespace aerogram::exporter {
+namespace {
+
+bool put_all(const Descriptor& fd, std::string_view bytes) {
+    while (!bytes.empty()) {
+        const ssize_t put = ::write(fd.get(), bytes.data(), bytes.size());
+        if (put < 0 && errno == EINTR) continue;
+        if (put < 0) return false;
+        bytes.remove_prefix(static_cast<std::size_t>(put));
+    }
+    return true;
+}
+
+Status create_folder_of(const std::filesystem::path& file) {
+    std::error_code failure;
+    if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), failure);
+    if (failure) return Error{ErrorCode::io, file.parent_path().string() + ": cannot be created: " + failure.message()};
+    return Done{};
+}
+
+}  // namespace
 
 Error io_error(const std::filesystem::path& where, std::string_view what) {
     return {ErrorCode::io, where.string() + ": " + std::string(what) + ": " + std::strerror(errno)};
@@ -39,19 +59,27 @@ Result<std::string> read_file(const std::filesystem::path& file, std::uintmax_t 
 }
 
 Status write_file(const std::filesystem::path& file, std::string_view bytes) {
-    std::error_code failure;
-    if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), failure);
-    if (failure) return Error{ErrorCode::io, file.parent_path().string() + ": cannot be created: " + failure.message()};
+    if (const Status made = create_folder_of(file); !made) return made.error();
     Descriptor fd(::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
     if (!fd.valid()) return io_error(file, "cannot be created");
-    while (!bytes.empty()) {
-        const ssize_t put = ::write(fd.get(), bytes.data(), bytes.size());
-        if (put < 0 && errno == EINTR) continue;
-        if (put < 0) return io_error(file, "cannot be written");
-        bytes.remove_prefix(static_cast<std::size_t>(put));
-    }
-    if (!fd.close()) return io_error(file, "cannot be written");
+    if (!put_all(fd, bytes) || !fd.close()) return io_error(file, "cannot be written");
     return Done{};
+}
+
+Status replace_file(const std::filesystem::path& file, std::string_view bytes) {
+    std::error_code failure;
+    const std::filesystem::path target = std::filesystem::weakly_canonical(std::filesystem::absolute(file), failure);
+    if (failure || !target.has_filename()) return Error{ErrorCode::io, file.string() + ": cannot be a file's name"};
+    if (const Status made = create_folder_of(target); !made) return made.error();
+    const std::filesystem::path fresh = target.parent_path() / (".aerogram-" + std::to_string(::getpid()) + ".new");
+    ::unlink(fresh.c_str());  // of a killed process that had our number
+    Descriptor fd(::open(fresh.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+    if (!fd.valid()) return io_error(file, "cannot be created");
+    const bool whole = put_all(fd, bytes) && ::fsync(fd.get()) == 0 && fd.close();
+    if (whole && ::rename(fresh.c_str(), target.c_str()) == 0) return Done{};
+    const Error error = io_error(file, "cannot be written");
+    ::unlink(fresh.c_str());
+    return error;
 }
 
 }  // namespace aerogram::exporter

@@ -12,6 +12,9 @@ namespace aerogram::exporter {
 Result<std::string> read_file(const std::filesystem::path& file, std::uintmax_t limit = std::uintmax_t{8} << 30);
 /// Creates or replaces a file, folders included. Errors: io.
 Status write_file(const std::filesystem::path& file, std::string_view bytes);
+/// Creates or replaces a file in one step, folders included, links followed: whoever reads it, also after a failure or
+/// a kill -9, finds the old bytes or the new ones, complete. Errors: io; what was there is then as it was.
+Status replace_file(const std::filesystem::path& file, std::string_view bytes);
 
 /// A folder being written beside its destination; `commit` swaps it in with renameat2(RENAME_EXCHANGE), so that a
 /// reader, or whoever comes after a kill -9, finds the old folder or the new one, complete. Uncommitted folders are

@@ -41,6 +41,48 @@ Json judgement_json(const exporter::Judgement& judgement) {
             {"problems", judgement.problems}};
 }
 
+Json path_json(const std::optional<std::filesystem::path>& path) {
+    return path ? Json(path->string()) : Json(nullptr);
+}
+
+Json slots_json(const InspectedFormation& inspected) {
+    const planner::Formation& formation = inspected.formation;
+    Json slots = Json::array();
+    for (std::size_t i = 0; i < formation.points_m.size(); ++i) {
+        slots.push_back({{"position_m", vector_json(formation.points_m[i])},
+                         {"color", hex_from_rgb(formation.colors[i])},
+                         {"part", formation.spare[i] ? Json(nullptr) : Json(formation.part[i] + 1)},
+                         {"spare", bool{formation.spare[i]}}});
+    }
+    return slots;
+}
+
+Json formation_json(const InspectedFormation& inspected) {
+    const exporter::FormationFacts& facts = inspected.facts;
+    Json closest, spacing, coverage = Json::array();
+    if (facts.closest) {
+        closest = Json::array({facts.closest->first + 1, facts.closest->second + 1});
+        spacing = facts.closest->distance_m;
+    }
+    for (const auto& each : facts.coverage_m) coverage.push_back(or_null(each));
+    return {{"mission", facts.show},
+            {"keyframe", facts.keyframe},
+            {"number", facts.number},
+            {"keyframes", facts.keyframes},
+            {"drones", facts.drones},
+            {"spares", facts.spares},
+            {"formation_spacing_m", facts.asked_spacing_m},
+            {"downwash", facts.downwash},
+            {"smallest_spacing_m", spacing},
+            {"closest_slots", closest},
+            {"low_m", vector_json(facts.low_m)},
+            {"high_m", vector_json(facts.high_m)},
+            {"size_m", vector_json(facts.high_m - facts.low_m)},
+            {"coverage_m", coverage},
+            {"note", facts.note},
+            {"slots", slots_json(inspected)}};
+}
+
 }  // namespace
 
 std::string plan_answer(const planner::FlightPlan& plan, const exporter::ExportedShow& shown,
@@ -90,7 +132,8 @@ std::string verify_answer(const std::vector<std::pair<std::filesystem::path, exp
     return text({{"held", all}, {"paths", paths}});
 }
 
-std::string inspect_answer(const exporter::RecordedShow& show, const std::vector<double>& at_s) {
+std::string inspect_answer(const exporter::RecordedShow& show, const std::vector<double>& at_s,
+                           const std::optional<std::filesystem::path>& picture) {
     Json drones = Json::array();
     for (const auto& drone : show.drones) {
         Json entry = {{"name", drone.name},
@@ -118,7 +161,33 @@ std::string inspect_answer(const exporter::RecordedShow& show, const std::vector
                  {"timed", show.timed},
                  {"duration_s", show.duration_s},
                  {"drones", drones},
-                 {"cues", cues}});
+                 {"cues", cues},
+                 {"picture", path_json(picture)}});
+}
+
+std::string formation_answer(const std::vector<InspectedFormation>& inspected,
+                             const std::optional<std::filesystem::path>& picture) {
+    if (inspected.size() == 1) {
+        Json one = formation_json(inspected.front());
+        one["picture"] = path_json(picture);
+        return text(one);
+    }
+    Json all = Json::array();
+    for (const InspectedFormation& each : inspected) all.push_back(formation_json(each));
+    return text({{"keyframes", all}, {"picture", path_json(picture)}});
+}
+
+std::string keyframes_answer(const planner::Mission& mission) {
+    Json keyframes = Json::array();
+    for (std::size_t k = 0; k < mission.keyframes.size(); ++k) {
+        const planner::Keyframe& keyframe = mission.keyframes[k];
+        keyframes.push_back({{"number", k + 1},
+                             {"name", keyframe.name},
+                             {"clip", keyframe.clip.empty() ? Json(nullptr) : Json(keyframe.clip)},
+                             {"parts", keyframe.parts.size()},
+                             {"hold_s", keyframe.hold_s}});
+    }
+    return text({{"mission", mission.name}, {"drones", mission.fleet.drones}, {"keyframes", keyframes}});
 }
 
 std::string new_answer(const std::filesystem::path& file) {

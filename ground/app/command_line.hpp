@@ -1,9 +1,11 @@
 #pragma once
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "export/picture/picture_size.hpp"
 #include "geo/result.hpp"
 
 /// What was typed, as values. Parsing knows no command's work; the commands know no parser.
@@ -19,8 +21,11 @@ struct VerifyCommand {
     std::vector<std::filesystem::path> paths;
 };
 struct InspectCommand {
-    std::filesystem::path file;
-    std::vector<double> at_s;
+    std::filesystem::path file;           ///< a mission, or an exported file
+    std::vector<double> at_s;             ///< of an exported file
+    std::optional<std::string> keyframe;  ///< of a mission: name, number or clip
+    std::optional<std::filesystem::path> png;
+    int width_px = exporter::kPicture_px;  ///< of the picture
 };
 struct NewCommand {
     std::string name;

@@ -52,9 +52,19 @@ std::variant<CommandLine, Farewell> parse_command_line(int argc, const char* con
     verify_app->add_option("PATH", verify.paths, "show folders or single files")->required();
 
     InspectCommand inspect;
-    auto* inspect_app = app.add_subcommand("inspect", "tell what is in an exported file");
-    inspect_app->add_option("FILE", inspect.file, "a file in any format we read")->required();
-    inspect_app->add_option("--at", inspect.at_s, "show positions and colours at these times, seconds");
+    auto* inspect_app = app.add_subcommand(
+        "inspect", "tell, and draw, what a keyframe of a mission looks like or what is in an exported file");
+    inspect_app->add_option("FILE", inspect.file, "a mission (.toml), or an exported file in any format we read")
+        ->required();
+    inspect_app->add_option("--keyframe", inspect.keyframe,
+                            "of a mission: a keyframe's name or number, or a clip's name for all its frames");
+    inspect_app->add_option("--at", inspect.at_s, "of an exported file: positions and colours at these times, seconds");
+    inspect_app->add_option("--png", inspect.png,
+                            "write a picture: a keyframe from three sides with its spacings, or the show's front view "
+                            "at each --at");
+    inspect_app->add_option("--width", inspect.width_px, "of the picture, pixels")
+        ->check(CLI::Range(exporter::kNarrowestPicture_px, exporter::kWidestPicture_px))
+        ->capture_default_str();
 
     NewCommand create;
     auto* new_app = app.add_subcommand("new", "write a commented mission to start from");

@@ -17,7 +17,12 @@ struct Session {
 int run_plan(const PlanCommand& command, const Session& session);
 int run_verify(const VerifyCommand& command, const Session& session);
 int run_inspect(const InspectCommand& command, const Session& session);
+/// The part of inspect that looks at missions.
+int run_inspect_mission(const InspectCommand& command, const Session& session);
 int run_new(const NewCommand& command, const Session& session);
+
+/// Writes a picture whole or not at all; never over what is inspected.
+Status write_picture(const InspectCommand& command, const Result<std::string>& png);
 
 /// Reports an error in the session's form (with --json also as an object on stdout); returns its exit status.
 int report_error(const Error& error, const Session& session);

@@ -1,10 +1,12 @@
 #include <array>
 #include <cmath>
 #include <iostream>
+#include <optional>
 #include <sstream>
 
 #include "export/files.hpp"
 #include "export/format.hpp"
+#include "export/picture/strip_picture.hpp"
 #include "geo/color.hpp"
 #include "geo/units.hpp"
 #include "ground/app/answers.hpp"
@@ -73,20 +75,84 @@ std::string drones_text(const RecordedShow& show, const std::vector<double>& at_
     return text.str();
 }
 
+bool is_mission(const std::filesystem::path& file) {
+    std::string extension = file.extension().string();
+    for (char& c : extension) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
+    return extension == ".toml";
+}
+
+std::optional<Error> unfit(const InspectCommand& command) {
+    for (const double t_s : command.at_s) {
+        if (!std::isfinite(t_s)) return Error{ErrorCode::invalid_input, "--at: must be a time in seconds"};
+    }
+    const bool mission = is_mission(command.file);
+    if (mission && !command.at_s.empty()) {
+        return Error{ErrorCode::invalid_input,
+                     "--at: a mission has no times before it is planned; plan it and inspect " +
+                         std::string("its trajectories.bin, or name a --keyframe")};
+    }
+    if (!mission && command.keyframe) {
+        return Error{ErrorCode::invalid_input,
+                     "--keyframe: exported files hold no keyframes; inspect the mission, or name times with --at"};
+    }
+    if (command.png && (mission ? !command.keyframe : command.at_s.empty())) {
+        return Error{ErrorCode::invalid_input,
+                     mission ? "--png: name the --keyframe to draw" : "--png: name the times to draw with --at"};
+    }
+    if (command.png && command.at_s.size() > exporter::kMostStripFrames) {
+        return Error{ErrorCode::invalid_input, "--png: draws at most " + std::to_string(exporter::kMostStripFrames) +
+                                                   " times, not " + std::to_string(command.at_s.size())};
+    }
+    return std::nullopt;
+}
+
+/// The show from the front at each time, lamps as they are then.
+Result<std::string> strip_of(const RecordedShow& show, const InspectCommand& command) {
+    if (!show.timed || show.drones.empty()) {
+        return Error{ErrorCode::invalid_input, command.file.string() + ": " +
+                                                   (show.timed ? "holds no drones" : "says where, not when") +
+                                                   "; --png needs an export with times"};
+    }
+    std::vector<exporter::StripFrame> frames;
+    for (const double t_s : command.at_s) {
+        exporter::StripFrame frame{decimals(t_s, 2) + " s", {}};
+        for (const RecordedDrone& drone : show.drones)
+            frame.drones.push_back({exporter::position_at(drone, t_s), light_at(drone.tracks.lights, t_s)});
+        frames.push_back(std::move(frame));
+    }
+    const std::string title = show.title.empty() ? command.file.filename().string() : show.title;
+    return exporter::strip_picture(
+        title, counted(show.drones.size(), "drone") + ", " + decimals(show.duration_s, 1) + " s, from the front, m",
+        frames, command.width_px);
+}
+
 }  // namespace
 
-int run_inspect(const InspectCommand& command, const Session& session) {
-    for (const double t_s : command.at_s) {
-        if (!std::isfinite(t_s))
-            return report_error({ErrorCode::invalid_input, "--at: must be a time in seconds"}, session);
+Status write_picture(const InspectCommand& command, const Result<std::string>& png) {
+    if (!png) return png.error();
+    std::error_code differs;
+    if (std::filesystem::equivalent(*command.png, command.file, differs)) {
+        return Error{ErrorCode::invalid_input, "--png " + command.png->string() + ": would replace what is inspected"};
     }
+    return exporter::replace_file(*command.png, *png);
+}
+
+int run_inspect(const InspectCommand& command, const Session& session) {
+    if (const auto error = unfit(command)) return report_error(*error, session);
+    if (is_mission(command.file)) return run_inspect_mission(command, session);
     const auto show = read_any(command.file);
     if (!show) return report_error(show.error(), session);
+    if (command.png) {
+        if (const Status written = write_picture(command, strip_of(*show, command)); !written)
+            return report_error(written.error(), session);
+    }
     session.console.clear_line();
     if (session.json) {
-        std::cout << inspect_answer(*show, command.at_s);
+        std::cout << inspect_answer(*show, command.at_s, command.png);
     } else {
-        std::cout << overview(*show) << drones_text(*show, command.at_s);
+        std::cout << overview(*show);
+        if (command.png) std::cout << "picture        " << command.png->string() << "\n";
+        std::cout << drones_text(*show, command.at_s);
     }
     return kDone;
 }
