@@ -19,12 +19,12 @@ SKIPPED_FOLDERS = {"node_modules", ".venv", ".git", "out"}
 # Third-party header -> the ending (or endings) of the only .cpp files that may include it.
 SEAMS = (
     (r"CGAL/", "cgal"), (r"boost/", "cgal|svgpp"), (r"svgpp/|rapidxml", "svgpp"), (r"assimp/", "assimp"), (r"cairo[\w-]*\.h", "cairo"),
-    (r"potracelib\.h", "potrace"), (r"tetgen\.h", "tetgen"), (r"cholmod\.h|suitesparse/", "cholmod"),
+    (r"potracelib\.h", "potrace"), (r"polyclipping/", "clipper"), (r"tetgen\.h", "tetgen"), (r"cholmod\.h|suitesparse/", "cholmod"),
     (r"cblas\.h|lapack\.h|lapacke\.h|openblas", "lapack"), (r"GeographicLib/", "geographiclib"), (r"modbus", "modbus"),
     (r"toml\+\+/|toml\.hpp", "tomlplusplus"), (r"nlohmann/", "json"), (r"zip\.h|zipconf\.h", "libzip"),
     (r"libdeflate\.h", "libdeflate"),
     (r"openssl/", "openssl"), (r"hersheyfont\.h", "hershey"), (r"CLI/", "cli11"),
-    (r"ft2build\.h|freetype/", "freetype"), (r"hb[\w-]*\.h", "harfbuzz"), (r"fontconfig/", "fontconfig"),
+    (r"ft2build\.h|freetype/", "freetype"), (r"hb[\w-]*\.h", "harfbuzz"), (r"fontconfig/", "fontconfig"), (r"fribidi\.h", "fribidi"),
     (r"png(conf)?\.h", "libpng"), (r"jpeglib\.h|jerror\.h", "libjpeg"),
 )
 SMALL_GLM = re.compile(r"glm/(vec[234]|mat[234]x[234]|geometric|common|trigonometric|exponential|matrix|"
