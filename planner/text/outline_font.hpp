@@ -42,14 +42,21 @@ struct PlacedGlyph {
     std::uint32_t glyph = 0;
     Vec2 at{};
 };
+/// Glyphs that belong together: a letter with its marks, a ligature, a syllable; a space.
+struct ShapedLetter {
+    std::size_t begin = 0, end = 0;  ///< into ShapedLine::glyphs
+    double left = 0.0, right = 0.0;  ///< the room that it takes in the line
+};
 /// A line of text in font units, from x = 0 on the baseline y = 0, left to right as it is seen.
 struct ShapedLine {
     std::vector<PlacedGlyph> glyphs;
+    std::vector<ShapedLetter> letters;
     double width = 0.0;  ///< from the first origin to where the next glyph would stand
 };
-/// What the font makes of lines: kerning, ligatures, joined forms, marks, right to left where the script runs so.
-/// Numbers and words of another direction inside a line keep their own. Errors: invalid_input when the file is no font,
-/// or naming the first character that it does not draw.
+/// What the font makes of lines: kerning, ligatures, joined forms, marks, right to left where the script runs so. Each
+/// line runs as its first letter does; words, numbers and brackets inside keep their own direction (directions.hpp).
+/// Errors: invalid_input when the file is no font, a line is not UTF-8, or naming the first character that the font
+/// does not draw.
 struct ShapedText {
     std::vector<ShapedLine> lines;
     double line_pitch = 0.0;  ///< between baselines
@@ -59,7 +66,8 @@ Result<ShapedText> shape_text(const FontData& font, std::span<const std::string_
 
 /// The outlines of glyphs in font units, curves as chords off by at most 1/2000 em.
 /// @returns one a glyph; spaces have no contours.
-/// Errors: invalid_input when the file is no font, or a glyph has no outline, as in bitmap fonts.
+/// Errors: invalid_input when the file is no font, a glyph has no outline (fonts of bitmaps, or of coloured pictures),
+/// or all of them together would have more than 4 million points.
 Result<std::vector<Region>> glyph_outlines(const FontData& font, std::span<const std::uint32_t> glyphs);
 
 }  // namespace aerogram::planner

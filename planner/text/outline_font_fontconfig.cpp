@@ -143,9 +143,8 @@ std::optional<std::string> installed_family_with(char32_t character) {
     const Owned<FcFontSet> fonts = installed(character);
     std::optional<std::string> first;
     for (int i = 0; fonts && i < fonts->nfont; ++i) {
-        for (const std::string& family : names(fonts->fonts[i], FC_FAMILY)) {
-            if (!first || family < *first) first = family;
-        }
+        const auto families = names(fonts->fonts[i], FC_FAMILY);  // the first is the one in Latin letters, if any
+        if (!families.empty() && (!first || families.front() < *first)) first = families.front();
     }
     return first;
 }

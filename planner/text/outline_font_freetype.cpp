@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kChordsPerEm = 2000.0;  ///< an em divided by how far chords may be off their curve
 constexpr double kFewestChords = 6.0, kMostChords = 64.0;
+constexpr std::size_t kMostPoints = 4'000'000;
 
 struct Deleter {
     void operator()(FT_LibraryRec_* p) const { FT_Done_FreeType(p); }
@@ -78,6 +79,49 @@ Region tidied(Region region) {
     return region;
 }
 
+/// A font's outlines, one glyph after another.
+class Outlines {
+  public:
+    Outlines(const FontData& font, FT_Face face) : font_(font), face_(face), space_(FT_Get_Char_Index(face, ' ')) {
+        callbacks_.move_to = move_to;
+        callbacks_.line_to = line_to;
+        callbacks_.conic_to = conic_to;
+        callbacks_.cubic_to = cubic_to;
+    }
+
+    [[nodiscard]] Error unusable(const std::string& what) const {
+        return {ErrorCode::invalid_input, font_.name + what};
+    }
+    [[nodiscard]] Result<Region> of(std::uint32_t glyph) const {
+        if (FT_Load_Glyph(face_, glyph, FT_LOAD_NO_SCALE | FT_LOAD_NO_BITMAP) != 0 ||
+            face_->glyph->format != FT_GLYPH_FORMAT_OUTLINE) {
+            return unusable(": a glyph has no outline; choose another font");
+        }
+        Pen pen;
+        pen.tolerance = std::max(1.0, static_cast<double>(face_->units_per_EM)) / kChordsPerEm;
+        if (FT_Outline_Decompose(&face_->glyph->outline, &callbacks_, &pen) != 0) {
+            return unusable(": a glyph's outline is broken; choose another font");
+        }
+        const bool coloured = FT_HAS_COLOR(face_) || FT_HAS_SVG(face_);
+        if (coloured && pen.region.contours.empty() && glyph != space_) {
+            return unusable(": a glyph is a coloured picture without outline; choose another font");
+        }
+        return tidied(std::move(pen.region));
+    }
+
+  private:
+    const FontData& font_;
+    FT_Face face_;
+    FT_UInt space_;
+    FT_Outline_Funcs callbacks_{};
+};
+
+std::size_t points_of(const Region& region) {
+    std::size_t points = 0;
+    for (const Contour& contour : region.contours) points += contour.size();
+    return points;
+}
+
 }  // namespace
 
 Result<std::vector<Region>> glyph_outlines(const FontData& font, std::span<const std::uint32_t> glyphs) {
@@ -92,28 +136,20 @@ Result<std::vector<Region>> glyph_outlines(const FontData& font, std::span<const
     }
     const std::unique_ptr<FT_FaceRec_, Deleter> face(raw_face);
     if (!FT_IS_SCALABLE(raw_face)) return unusable(" has bitmaps, not outlines; choose another font");
-    FT_Outline_Funcs callbacks{};
-    callbacks.move_to = move_to;
-    callbacks.line_to = line_to;
-    callbacks.conic_to = conic_to;
-    callbacks.cubic_to = cubic_to;
+    const Outlines outlines(font, raw_face);
     std::map<std::uint32_t, Region> drawn;
     std::vector<Region> out;
+    std::size_t points = 0;
     for (const std::uint32_t glyph : glyphs) {
-        const auto [entry, fresh] = drawn.try_emplace(glyph);
-        if (fresh) {
-            if (FT_Load_Glyph(raw_face, glyph, FT_LOAD_NO_SCALE | FT_LOAD_NO_BITMAP) != 0 ||
-                raw_face->glyph->format != FT_GLYPH_FORMAT_OUTLINE) {
-                return unusable(": a glyph has no outline; choose another font");
-            }
-            Pen pen;
-            pen.tolerance = static_cast<double>(raw_face->units_per_EM) / kChordsPerEm;
-            if (FT_Outline_Decompose(&raw_face->glyph->outline, &callbacks, &pen) != 0) {
-                return unusable(": a glyph's outline is broken; choose another font");
-            }
-            entry->second = tidied(std::move(pen.region));
+        auto known = drawn.find(glyph);
+        if (known == drawn.end()) {
+            auto region = outlines.of(glyph);
+            if (!region) return region.error();
+            known = drawn.emplace(glyph, std::move(*region)).first;
         }
-        out.push_back(entry->second);
+        points += points_of(known->second);
+        if (points > kMostPoints) return unusable(": more than 4 million points for this text; choose another font");
+        out.push_back(known->second);
     }
     return out;
 }

@@ -5,9 +5,10 @@
 
 namespace aerogram::planner {
 
-/// The outlines of a text in a font that has them, in font units, reading order, lines under each other and aligned.
-/// Errors: invalid_input when the font is not installed or not a font, lacks a character (named) or draws nothing; io
-/// when its file cannot be read.
+/// The outlines of a text in a font that has them, in font units, as seen from left to right, lines under each other
+/// and aligned, or the one line along a drawn one (baseline.hpp). Outlines of letters that touch overlap. Errors:
+/// invalid_input when the font is not installed or not a font, lacks a character (named), the text draws nothing, has
+/// several lines along one, or more than 10,000 bytes; io when the file cannot be read.
 Result<Region> outline_text(const TextSource& source);
 
 }  // namespace aerogram::planner

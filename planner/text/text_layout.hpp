@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 #include <string_view>
 #include <vector>
 
@@ -14,6 +15,14 @@ namespace aerogram::planner {
 /// Errors: invalid_input naming the first character that the font does not draw, or when nothing is drawn at all.
 Result<std::vector<std::vector<Stroke>>> lay_out(std::string_view utf8, const StrokeFont& font,
                                                  TextAlign align = TextAlign::center);
+
+/// The strokes of a whole text source, a letter each: laid out in lines, or the one line along a drawn one
+/// (baseline.hpp), each letter the middle of its own room on it.
+/// Errors: as lay_out; io when the stroke font is not installed; invalid_input for several lines along one.
+Result<std::vector<std::vector<Stroke>>> stroke_text(const TextSource& source);
+
+/// What a text of several lines along one line is told.
+[[nodiscard]] Error several_lines_along(std::size_t lines);
 
 /// How much of a line's width stands left of the line that all are aligned at.
 [[nodiscard]] constexpr double line_start_share(TextAlign align) {
