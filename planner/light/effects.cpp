@@ -94,7 +94,7 @@ Rgb blended(const Rgb& beneath, const Glow& glow, LightBlend blend, double opaci
     Rgb over = glow.color;
     if (blend == LightBlend::add) over = {beneath.r + over.r, beneath.g + over.g, beneath.b + over.b};
     if (blend == LightBlend::multiply) over = {beneath.r * over.r, beneath.g * over.g, beneath.b * over.b};
-    return clamped(mix(beneath, clamped(over), share));
+    return share >= 1.0 ? clamped(over) : clamped(mix(beneath, clamped(over), share));
 }
 
 }  // namespace aerogram::planner

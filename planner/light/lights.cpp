@@ -130,6 +130,8 @@ class Lighting {
     explicit Lighting(const LightStage& stage) : stage_(stage) {}
 
     [[nodiscard]] std::vector<LightKey> lit(DroneId drone, const std::vector<LightKey>& keys) const {
+        const bool untouched = std::ranges::none_of(beams_, [&](const auto& beam) { return beam->is_for(drone); });
+        if (untouched) return keys;
         const Beneath beneath(keys);
         const auto& times_ms = grid_.times_ms;
         KeyWriter out;

@@ -15,7 +15,7 @@ inline constexpr std::size_t kMostLightKeys = 8'000'000;
 /// While lights shine, lamps are sampled every 1 / light_rate_hz (rounded to 20 ms) and wherever the tracks have keys;
 /// between samples light is linear, except where something changes by steps (a sparkle, a picture of a sequence, a
 /// volume's border): that changes at a sample. What is written is within 1/512 a channel of that (key_writer.hpp).
-/// Lamps stay dark outside lamp_time; spare drones stay dark. Where no light shines the tracks stay as they are.
+/// Lamps stay dark outside lamp_time; spare drones stay dark. Where no light shines, the lamps' light stays as it is.
 /// @param tracks  one a drone. Their keys' times are multiples of 20 ms.
 /// Properties: (1) run.threads changes nothing (2) the mission's seed decides all that is random (3) without lights the
 /// tracks come back as they are.

@@ -303,7 +303,7 @@ struct Light {
     std::string keyframe;              ///< empty: over show time
     double start_s = 0.0;              ///< after the keyframe stands, or show time; may be negative with a keyframe
     std::optional<double> duration_s;  ///< absent: to the end of the hold (all frames of a clip), or of the show
-    std::vector<Rgb> colors{Rgb{1.0, 1.0, 1.0}};  ///< >= 1
+    std::vector<Rgb> colors = std::vector<Rgb>(1, Rgb{1.0, 1.0, 1.0});  ///< >= 1
     LightBlend blend = LightBlend::replace;
     double opacity = 1.0;  ///< [0, 1]
     double fade_in_s = 0.0, fade_out_s = 0.0;

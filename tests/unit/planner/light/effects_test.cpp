@@ -130,7 +130,7 @@ TEST(Sparkle, TheShareOfDronesIsLitAtEveryTime) {
         for (const double since_s : {0.0, 0.3, 7.7, 61.0}) {
             std::size_t lit = 0;
             for (std::size_t d = 0; d < kDrones; ++d)
-                lit += sparkle_glow(light, 5, DroneId(d), since_s).share > 0.0 ? 1 : 0;
+                if (sparkle_glow(light, 5, DroneId(d), since_s).share > 0.0) ++lit;
             const double deviation = std::sqrt(share * (1.0 - share) / kDrones);
             EXPECT_NEAR(static_cast<double>(lit) / kDrones, share, 4.0 * deviation + 1e-12) << share << ' ' << since_s;
         }
@@ -149,9 +149,9 @@ TEST(Sparkle, EachIsLitForOnePeriodInEveryCycle) {
         for (std::size_t step = 0; step < kSteps; ++step) {
             const Glow glow = sparkle_glow(light, 9, DroneId(d), static_cast<double>(step) / 1000.0);
             const bool now = glow.share > 0.0;
-            lit += now ? 1 : 0;
-            changes += step > 0 && now != before ? 1 : 0;
-            blue += now && glow.color == kBlue ? 1 : 0;
+            if (now) ++lit;
+            if (step > 0 && now != before) ++changes;
+            if (now && glow.color == kBlue) ++blue;
             before = now;
         }
         EXPECT_NEAR(static_cast<double>(lit), 4000.0, 420.0);  // whole cycles but for the two at the ends
@@ -167,7 +167,7 @@ TEST(Sparkle, TheSeedDecides) {
     for (std::size_t d = 0; d < 1000; ++d) {
         const double lit = sparkle_glow(light, 1, DroneId(d), 3.0).share;
         EXPECT_EQ(lit, sparkle_glow(light, 1, DroneId(d), 3.0).share);
-        different += lit != sparkle_glow(light, 2, DroneId(d), 3.0).share ? 1 : 0;
+        if (lit != sparkle_glow(light, 2, DroneId(d), 3.0).share) ++different;
     }
     EXPECT_GT(different, 200u);  // 2 x 0.2 x 0.8 of them, expected
     light.share = 0.0;
