@@ -23,8 +23,9 @@ enum class FillRule { nonzero, evenodd };
 [[nodiscard]] std::optional<Region> subtracted(const Region& from, const Region& what);
 [[nodiscard]] std::optional<Region> intersected(const Region& a, const Region& b);
 
-/// The parts of lines inside a region; those of closed lines that are cut are open.
-[[nodiscard]] std::optional<Chords> clipped(const Chords& lines, const Region& inside);
+/// The parts of lines inside a region, or outside of it; closed lines come back open.
+enum class Side { inside, outside };
+[[nodiscard]] std::optional<Chords> clipped(const Chords& lines, const Region& region, Side side = Side::inside);
 
 /// What a pen of this width covers along lines, with butt ends and mitred corners (limit 4), as SVG's defaults are: a
 /// contour a piece, all counter-clockwise, for any reader of winding numbers. @param width  > 0.

@@ -228,23 +228,24 @@ std::optional<Region> intersected(const Region& a, const Region& b) {
     return guarded([&] { return combined(a, b, cl::ctIntersection); });
 }
 
-std::optional<Chords> clipped(const Chords& lines, const Region& inside) {
+std::optional<Chords> clipped(const Chords& lines, const Region& region, Side side) {
     return guarded([&]() -> std::optional<Chords> {
         Grid grid;
-        for (const Contour& contour : inside.contours) grid.include(contour);
+        for (const Contour& contour : region.contours) grid.include(contour);
         for (const Stroke& line : lines.lines) grid.include(line);
         cl::Paths open;
         for (std::size_t i = 0; i < lines.lines.size(); ++i) {
             open.push_back(grid.rounded(lines.lines[i]));
             if (lines.closed[i]) open.back().push_back(open.back().front());
         }
-        const cl::Paths window = rounded(inside, grid);
+        const cl::Paths window = rounded(region, grid);
         if (!affordable({&open, &window})) return std::nullopt;
         cl::Clipper clipper;
         clipper.AddPaths(open, cl::ptSubject, false);
         clipper.AddPaths(window, cl::ptClip, true);
         cl::PolyTree result;
-        if (!clipper.Execute(cl::ctIntersection, result, cl::pftNonZero, cl::pftNonZero)) return std::nullopt;
+        const cl::ClipType how = side == Side::inside ? cl::ctIntersection : cl::ctDifference;
+        if (!clipper.Execute(how, result, cl::pftNonZero, cl::pftNonZero)) return std::nullopt;
         cl::Paths parts;
         cl::OpenPathsFromPolyTree(result, parts);
         Chords out;
