@@ -86,11 +86,14 @@ std::vector<Vec2> placed(const SketchJob& job, const Vec2& stretch, bool& unit_c
     return out;
 }
 
-/// The sketch's area, for solids.
-Region region_of(const Sketch& sketch) {
+/// The sketch's area, `middle` at (0, 0).
+Region region_of(const Sketch& sketch, const Vec2& middle) {
     Region region;
-    for (const SketchPath& path : outlines_of(sketch.region))
-        if (path.closed) region.contours.push_back(path.points);
+    for (const SketchPath& path : outlines_of(sketch.region)) {
+        if (!path.closed) continue;
+        region.contours.push_back(path.points);
+        for (Vec2& p : region.contours.back()) p -= middle;
+    }
     return region;
 }
 
@@ -118,14 +121,16 @@ Result<Figure> sketch_figure(const PartRef& ref, const SketchSource& source, con
     const Bounds box = sketch->region.bounds();
     if (!(glm::length(box.size()) > kShortest_m)) return ref.error(".sketch is smaller than a micrometre");
     if (ref.part.size.depth_m) {
-        Region region = region_of(*sketch);
+        const Region region = region_of(*sketch, Vec2{});
         if (region.contours.empty()) return ref.error(".sketch: depth needs a closed line that encloses an area");
-        auto solid = extruded_figure(ref, region, run);
+        const Part sized = with_size(ref.part, {box.size().x, 0.0, box.size().y});
+        auto solid = extruded_figure({ref.mission, sized, ref.key}, region, run);
         if (solid) solid->in_metres = true;
         return solid;
     }
+    const Vec2 middle = 0.5 * (box.low + box.high);
     for (SketchStroke& stroke : job->strokes)
-        for (Vec2& p : stroke.points) p -= 0.5 * (box.low + box.high);
+        for (Vec2& p : stroke.points) p -= middle;
     const Vec3 extent(box.size().x, 0.0, box.size().y);
     if (!ref.part.density.even()) {
         const Part sized = with_size(ref.part, extent);
@@ -140,6 +145,8 @@ Result<Figure> sketch_figure(const PartRef& ref, const SketchSource& source, con
         return stretch == Vec2(1.0) ? job->natural : placed(*job, stretch, ignored);
     });
     figure.in_metres = true;
+    auto region = std::make_shared<const Region>(region_of(*sketch, middle));
+    if (!region->contours.empty()) figure.coverage = area_coverage(std::move(region), job->density);
     if (unit_changed) {
         std::ostringstream text;
         text << "sampling unit " << *source.sampling_unit_m << " m does not suit " << job->drones
