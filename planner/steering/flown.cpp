@@ -55,7 +55,7 @@ void FlownRows::add(const Points& now_m, double furthest_m) {
     since_m_ = 0.0;
     rows_.push_back(now_m);
     if (rows_.size() < kMostRows) return;
-    for (std::size_t r = 0; 2 * r < rows_.size(); ++r) rows_[r] = std::move(rows_[2 * r]);
+    for (std::size_t r = 1; 2 * r < rows_.size(); ++r) rows_[r] = std::move(rows_[2 * r]);
     rows_.resize((rows_.size() + 1) / 2);
     step_m_ *= 2.0;
 }

@@ -79,7 +79,10 @@ Vec3 away_from_others(const std::vector<GroupState>& groups, std::size_t which, 
     for (std::size_t other = 0; other < groups.size(); ++other) {
         if (other == which) continue;
         const Vec3 apart = own.middle - groups[other].middle;
-        const double room = own.body.radius_m + groups[other].body.radius_m + space.keep_m;
+        // Groups that are to stand nearer to each other than their bodies' radii may come as near.
+        const Vec2 goals_apart(own.goal - groups[other].goal);
+        const double room = std::min(own.body.radius_m + groups[other].body.radius_m + space.keep_m,
+                                     std::max(glm::length(goals_apart), space.keep_m));
         const double height = own.body.half_m + groups[other].body.half_m + space.keep_m;
         const double distance = std::hypot(apart.x, apart.y);
         if (distance >= kMeeting * room || std::abs(apart.z) >= height) continue;

@@ -12,6 +12,7 @@ struct GroupState {
     Vec3 middle{}, goal{};
     GroupBody body;
     std::vector<Vec3> course;
+    double length_m = 0.0;    ///< of the course
     double passed_m = 0.0;    ///< along the course; never less than before
     double turned_rad = 0.0;  ///< of the formation about its middle, to face the course
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "geo/contract.hpp"
 #include "planner/sampling/site_grid.hpp"
@@ -21,6 +22,8 @@ constexpr double kInertia = 0.25;     ///< of the wished-for change of velocity 
 constexpr double kSmooth_rows = 5.0;  ///< of about 500
 constexpr double kTurn_rad = 0.01;    ///< the most that a formation turns in one step
 constexpr std::size_t kMostSteps = 20'000;
+constexpr std::size_t kPatience = 100;  ///< steps without progress after which the rest is flown straight
+constexpr double kProgress = 0.995;     ///< of what is still to do: less than this is progress
 constexpr double kTiny_m = 1e-9;
 
 class Flight {
@@ -46,7 +49,9 @@ class Flight {
     Result<Interpolation> fly() {
         const double step_m = kStep * task_.spacing_m;
         FlownRows rows(task_.from_m, step_m);
-        for (std::size_t step = 0; step < kMostSteps && !arrived(); ++step) {
+        double least_left_m = std::numeric_limits<double>::infinity();
+        std::size_t idle = 0;
+        for (std::size_t step = 0; step < kMostSteps && !arrived() && idle < kPatience; ++step) {
             if (run_.stopped()) return stopped_error();
             for (std::size_t g = 0; g < groups_.size(); ++g) wish_of_group(g);
             push_neighbours();
@@ -58,8 +63,11 @@ class Flight {
             }
             for (GroupState& group : groups_) group.middle = middle_of(group.drones, now_m_);
             rows.add(now_m_, furthest_m);
-            if (furthest_m < 1e-4 * step_m) break;  // nobody can get on
+            const double left_m = still_to_do_m();
+            idle = left_m < kProgress * least_left_m ? 0 : idle + 1;
+            if (idle == 0) least_left_m = left_m;
         }
+        fly_straight(rows, step_m);
         return std::move(rows).motion(task_.to_m, kSmooth_rows);
     }
 
@@ -70,8 +78,35 @@ class Flight {
         group.goal = middle_of(members, task_.to_m);
         group.body = body_of(members, task_.from_m, task_.to_m);
         group.course = find_course(group.middle, group.goal, group.body, task_.space);
+        for (std::size_t i = 1; i < group.course.size(); ++i)
+            group.length_m += glm::distance(group.course[i - 1], group.course[i]);
         group.drones = std::move(members);
         groups_.push_back(std::move(group));
+    }
+
+    /// Ways that groups have not flown and drones are off their places, added up.
+    [[nodiscard]] double still_to_do_m() const {
+        double sum = 0.0;
+        for (const GroupState& group : groups_) {
+            sum += static_cast<double>(group.drones.size()) * (group.length_m - group.passed_m);
+            for (const std::size_t d : group.drones)
+                sum += glm::distance(now_m_[d] - group.middle, task_.to_m[d] - group.goal);
+        }
+        return sum;
+    }
+
+    /// The rest of the way in straight lines: drones that block each other sort themselves out in the separation.
+    void fly_straight(FlownRows& rows, double step_m) const {
+        double furthest_m = 0.0;
+        for (std::size_t d = 0; d < now_m_.size(); ++d)
+            furthest_m = std::max(furthest_m, glm::distance(now_m_[d], task_.to_m[d]));
+        const auto steps = static_cast<std::size_t>(std::ceil(furthest_m / step_m));
+        Points row(now_m_.size());
+        for (std::size_t k = 1; k <= steps; ++k) {
+            const double share = static_cast<double>(k) / static_cast<double>(steps);
+            for (std::size_t d = 0; d < row.size(); ++d) row[d] = now_m_[d] + share * (task_.to_m[d] - now_m_[d]);
+            rows.add(row, furthest_m / static_cast<double>(steps));
+        }
     }
 
     [[nodiscard]] bool arrived() const {

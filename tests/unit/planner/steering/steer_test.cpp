@@ -54,6 +54,17 @@ TEST(Steer, Property1And2_EndsAreExactAndTheSameTwice) {
     EXPECT_EQ(rows, rows_of(*again, 24, 50));
 }
 
+/// Found by missions/steered.toml: thinning the rows of a long flight lost the first one.
+TEST(Steer, LongFlightsAreThinnedAndKeepTheirEnds) {
+    const SteerTask task = task_of(upright_grid(3, 2, 2.5, {-300, 0, 30}), upright_grid(2, 3, 2.5, {300, 10, 40}));
+    const auto motion = steer(task, {});
+    ASSERT_TRUE(motion.ok());
+    const auto rows = rows_of(*motion, 6, 100);
+    EXPECT_EQ(rows.front(), task.from_m);
+    EXPECT_EQ(rows.back(), task.to_m);
+    for (std::size_t k = 1; k < rows.size(); ++k) EXPECT_LT(glm::distance(rows[k][0], rows[k - 1][0]), 15.0);
+}
+
 TEST(Steer, Property3_MovingTheTaskMovesTheMotion) {
     const Vec3 shift(12, -7, 5);
     SteerTask task = task_of(upright_grid(5, 4, 2.5, {-30, 0, 30}), upright_grid(4, 5, 2.5, {30, 10, 40}));
