@@ -32,9 +32,9 @@ struct Drawing {
 /// Reads an SVG file: paths, basic shapes, groups, use, symbols, clip paths, transforms, presentation attributes, style
 /// attributes and style sheets of simple selectors (css_sheet.hpp). Text, images, filters, masks, markers, scripts and
 /// animation are left out with a warning; links out of the file are never followed; entities of a DOCTYPE are not
-/// replaced. Gradients count as the mean of their stops; what is fainter than 1/20 is not drawn, all else is opaque.
-/// Properties: (1) deterministic (2) areas by their fill rule, whichever it is (3) what is clipped away is gone.
-/// Errors: io when it cannot be read or is larger than 64 MiB; invalid_input ("line 3: ...") when it is not
+/// replaced. Gradients count as the mean of their stops; what is fainter than a quarter is not drawn, all else is
+/// opaque. Properties: (1) deterministic (2) areas by their fill rule, whichever it is (3) what is clipped away is
+/// gone. Errors: io when it cannot be read or is larger than 64 MiB; invalid_input ("line 3: ...") when it is not
 /// well-formed, nests deeper than 256, has more than 10^6 elements, 10^6 path segments or 2 * 10^6 elements after
 /// `use`, shows itself by `use`, or draws nothing.
 Result<Drawing> read_svg(const std::filesystem::path& file);

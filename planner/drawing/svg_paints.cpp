@@ -1,5 +1,7 @@
 #include "planner/drawing/svg_paints.hpp"
 
+#include <algorithm>
+
 namespace aerogram::planner {
 namespace {
 
@@ -17,7 +19,7 @@ GradientMeans::Mean GradientMeans::mean(std::size_t element, const std::map<std:
         const std::string_view name = local_name(tree_.elements[holder].name);
         if (name != "linearGradient" && name != "radialGradient") break;
         Rgb sum;
-        double weight = 0.0;
+        double weight = 0.0, stops = 0.0;
         const ElementStyle own = style_of(tree_, holder, {}, sheet, 0.0, warnings_, tries);
         for (std::size_t c = tree_.elements[holder].first_child; c != kNothing; c = tree_.elements[c].next) {
             if (local_name(tree_.elements[c].name) != "stop") continue;
@@ -26,8 +28,9 @@ GradientMeans::Mean GradientMeans::mean(std::size_t element, const std::map<std:
             const double share = style.stop_opacity + 1e-9;
             sum = {sum.r + share * stop.r, sum.g + share * stop.g, sum.b + share * stop.b};
             weight += share;
+            stops += 1.0;
         }
-        if (weight > 0.0) out = {true, {sum.r / weight, sum.g / weight, sum.b / weight}};
+        if (weight > 0.0) out = {true, {sum.r / weight, sum.g / weight, sum.b / weight}, std::min(weight / stops, 1.0)};
         std::string_view link_to = tree_.attribute(holder, "href");
         if (link_to.empty()) link_to = tree_.attribute(holder, "xlink:href");
         const auto next = link_to.starts_with('#') ? by_id.find(link_to.substr(1)) : by_id.end();

@@ -17,6 +17,7 @@ class GradientMeans {
     struct Mean {
         bool known = false;
         Rgb light;
+        double alpha = 1.0;  ///< mean of the stops' opacities
     };
     /// @param element  kNothing, or what a paint refers to; stops may be those of a gradient that it refers to.
     [[nodiscard]] Mean mean(std::size_t element, const std::map<std::string_view, std::size_t>& by_id,

@@ -12,7 +12,7 @@
 namespace aerogram::planner {
 namespace {
 
-constexpr double kLeastOpacity = 0.05;  ///< what is fainter is not drawn
+constexpr double kLeastOpacity = 0.25;  ///< what is fainter is not drawn
 constexpr double kLargest = 1e12;       ///< coordinates beyond are refused
 
 /// Left out, and what to do about it.
@@ -234,6 +234,7 @@ class Walk {
         if (paint.kind == SvgPaint::Kind::current) return style.color;
         const auto target = by_id_.find(paint.link);
         const auto light = paints_.mean(target == by_id_.end() ? kNothing : target->second, by_id_, sheet_, tries_);
+        if (light.known && style.shown * opacity * light.alpha < kLeastOpacity) return std::nullopt;
         if (light.known) return light.light;
         if (!paint.fallback) {
             warnings_.add(line(element), "a paint that is no gradient of this file is drawn white; use a plain colour");
