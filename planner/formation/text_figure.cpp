@@ -2,6 +2,7 @@
 #include <limits>
 #include <memory>
 
+#include "planner/drawing/region_clip.hpp"
 #include "planner/formation/area_figure.hpp"
 #include "planner/formation/figure.hpp"
 #include "planner/sampling/stroke_graph.hpp"
@@ -46,24 +47,29 @@ std::string quoted(const std::string& text) {
     return out + "\"";
 }
 
-Result<Figure> in_outlines(const PartRef& ref, const TextSource& source, const Run& run) {
+AreaStyle area_style(TextStyle style) {
+    return style == TextStyle::outline ? AreaStyle::outline
+           : style == TextStyle::solid ? AreaStyle::solid
+                                       : AreaStyle::fill;
+}
+
+/// Letters that touch (joined scripts, syllables, sharp bends) become one area, so that no outline runs inside another.
+Result<Figure> in_outlines(const PartRef& ref, const TextSource& source, const std::string& key, const Run& run) {
     auto region = outline_text(source);
-    if (!region)
-        return Error{region.error().code,
-                     ref.error(".text = " + quoted(source.text) + ": " + region.error().message).message};
-    if (source.style == TextStyle::outline) return outlined_figure(std::move(*region), ref.part.drones);
-    return filled_figure(std::move(*region), ref.part.drones, source.outline_share, run);
+    if (!region) return Error{region.error().code, ref.error(key + region.error().message).message};
+    auto simple = simplified(*region, FillRule::nonzero);
+    if (simple && simple->contours.empty()) return ref.error(key + "the letters enclose no area");
+    return area_figure(ref, simple ? std::move(*simple) : std::move(*region), area_style(source.style),
+                       source.outline_share, run);
 }
 
 }  // namespace
 
 Result<Figure> text_figure(const PartRef& ref, const TextSource& source, const Run& run) {
-    if (source.style != TextStyle::stroke) return in_outlines(ref, source, run);
     const std::string key = ".text = " + quoted(source.text) + ": ";
-    const Result<StrokeFont> font = load_stroke_font();
-    if (!font) return Error{font.error().code, ref.error(key + font.error().message).message};
-    const auto letters = lay_out(source.text, *font, source.align);
-    if (!letters) return ref.error(key + letters.error().message);
+    if (source.style != TextStyle::stroke) return in_outlines(ref, source, key, run);
+    const auto letters = stroke_text(source);
+    if (!letters) return Error{letters.error().code, ref.error(key + letters.error().message).message};
 
     const std::size_t drones = ref.part.drones;
     const auto drawing = std::make_shared<const Drawing>(draw(*letters));
