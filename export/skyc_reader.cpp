@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kFarthest_m = kFarthestSkyc_m, kLongest_s = kLongestSkyc_s;
 constexpr double kAny = 1e6;
-constexpr std::size_t kMostLightKeys = 10'000'000;
+constexpr std::size_t kMostLightKeys = 24'000'000;
 constexpr double kHalfMillimetre_m = 0.0005;
 constexpr std::int64_t kMostParts = 1000;
 

@@ -9,7 +9,7 @@
 namespace aerogram::planner {
 
 /// Light keys of all drones together that one show may have.
-inline constexpr std::size_t kMostLightKeys = 8'000'000;
+inline constexpr std::size_t kMostLightKeys = 20'000'000;
 
 /// The tracks with the mission's lights over them, one after another, each over the colours that those before it make.
 /// While lights shine, lamps are sampled every 1 / light_rate_hz (rounded to 20 ms) and wherever the tracks have keys;

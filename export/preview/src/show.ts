@@ -151,11 +151,21 @@ export function positionsAt(show: Show, t: number, out: Float32Array): void {
     }
 }
 
+/** Index of the last of ascending times that is <= t; -1 when there is none. */
+function lastNotAfter(times: Float64Array, t: number): number {
+    let low = 0, high = times.length;
+    while (low < high) {
+        const middle = (low + high) >> 1;
+        if (times[middle] <= t) low = middle + 1;
+        else high = middle;
+    }
+    return low - 1;
+}
+
 /** Lamp colours of all drones at show time t: linear light in 0..1, into `out`. */
 export function colorsAt(show: Show, t: number, out: Float32Array): void {
     show.lights.forEach((track, drone) => {
-        let k = track.times.length - 1;
-        while (k >= 0 && track.times[k] > t) --k;
+        const k = lastNotAfter(track.times, t);
         for (let c = 0; c < 3; ++c) {
             let value = k < 0 ? 0 : track.colors[3 * k + c];
             if (k >= 0 && track.fades[k] && k + 1 < track.times.length) {

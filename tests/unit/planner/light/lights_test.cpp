@@ -272,7 +272,7 @@ TEST(Lights, ASequenceOfImagesPlaysOnceInItsTimeBySteps) {
     EXPECT_EQ(shown(tracks, 7, 24.0), kGreen);
     EXPECT_EQ(shown(tracks, 7, 27.98), kGreen);
     EXPECT_EQ(shown(tracks, 7, 28.0), kWhite);
-    EXPECT_EQ(tracks[7].lights.size(), 8U);  // 0, 10, 20 white -> green, 22, 24, 28, 50, 60
+    EXPECT_EQ(tracks[7].lights.size(), 9U);  // 0, 10, 20 twice (white, then green), 22, 24, 28, 50, 60
 }
 
 TEST(Lights, AnImageWithoutAKeyframeStandsInItsVolumeOrFollowsTheFleet) {
