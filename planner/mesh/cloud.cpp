@@ -16,7 +16,7 @@ constexpr std::size_t kPiecesPerPoint = 20, kPiecesAtLeast = 12'000, kPiecesAtMo
 constexpr std::size_t kJumpRounds = 4;
 constexpr double kPoor = 0.6, kRich = 1.5;  ///< shares of the mean mass: from below the first, to above the second
 constexpr double kShare2 = 0.17, kShare3 = 0.06;  ///< size of a piece whose longest edge was halved down to 1
-constexpr double kMorePieces = 4.0;               ///< times the pieces wanted that needles and slivers may add
+constexpr double kLeastPiece = 1.0 / 6.0;         ///< of the mean size: long pieces that small are not cut
 
 template <std::size_t N>
 using Simplex = std::array<Vec3, N>;
@@ -47,11 +47,12 @@ Edge longest_edge(const Simplex<N>& s) {
     return longest;
 }
 
-/// Halves a simplex across its longest edge until no edge is longer than `reach`; calls visit(centre, size).
+/// Halves a simplex across its longest edge until no edge is longer than `reach`, or it is no larger than `least`;
+/// calls visit(centre, size).
 template <std::size_t N, class Visit>
-void halve(const Simplex<N>& s, double size, double reach, const Visit& visit) {
+void halve(const Simplex<N>& s, double size, double reach, double least, const Visit& visit) {
     const Edge longest = longest_edge(s);
-    if (longest.squared <= reach * reach) {
+    if (longest.squared <= reach * reach || size <= least) {
         Vec3 centre{};
         for (const Vec3& p : s) centre += p;
         visit(centre / static_cast<double>(N), size);
@@ -59,8 +60,8 @@ void halve(const Simplex<N>& s, double size, double reach, const Visit& visit) {
     }
     Simplex<N> first = s, second = s;
     first[longest.to] = second[longest.from] = 0.5 * (s[longest.from] + s[longest.to]);
-    halve<N>(first, 0.5 * size, reach, visit);
-    halve<N>(second, 0.5 * size, reach, visit);
+    halve<N>(first, 0.5 * size, reach, least, visit);
+    halve<N>(second, 0.5 * size, reach, least, visit);
 }
 
 /// The place of a cell of 2^-21 of the box along Morton's curve.
@@ -123,28 +124,19 @@ template <std::size_t N, class At>
 Cloud cloud_of_simplices(std::size_t simplices, const At& at, std::size_t pieces, const DensityField& density) {
     Cloud cloud;
     cloud.dimension = static_cast<int>(N) - 1;
-    std::vector<double> sizes(simplices), longest(simplices);
     double whole = 0.0;
-    for (std::size_t i = 0; i < simplices; ++i) {
-        const Simplex<N> s = at(i);
-        sizes[i] = size_of<N>(s);
-        longest[i] = std::sqrt(longest_edge<N>(s).squared);
-        whole += sizes[i];
-    }
+    for (std::size_t i = 0; i < simplices; ++i) whole += size_of<N>(at(i));
     AEROGRAM_REQUIRE(whole > 0.0, simplices);
     const double wanted = static_cast<double>(pieces), power = 1.0 / cloud.dimension;
-    double reach = std::pow(whole / ((N == 3 ? kShare2 : kShare3) * wanted), power);
-    const auto along_needles = [&] {
-        double sum = 0.0;
-        for (const double l : longest) sum += l > reach ? std::pow(l / reach, cloud.dimension - 1) : 0.0;
-        return sum;
-    };
-    while (along_needles() > kMorePieces * wanted) reach *= 1.5;
+    const double reach = std::pow(whole / ((N == 3 ? kShare2 : kShare3) * wanted), power);
+    const double least = kLeastPiece * whole / wanted;
     const auto gather = [&](const DensityField& weight) {
         cloud.mass = cloud.size = 0.0;
         for (std::size_t i = 0; i < simplices; ++i) {
-            if (sizes[i] <= 0.0) continue;
-            halve<N>(at(i), sizes[i], reach, [&](const Vec3& centre, double size) {
+            const Simplex<N> s = at(i);
+            const double all = size_of<N>(s);
+            if (all <= 0.0) continue;
+            halve<N>(s, all, reach, least, [&](const Vec3& centre, double size) {
                 const double mass = weight ? weight(centre) * size : size;
                 if (!(mass > 0.0)) return;
                 cloud.pieces.push_back({centre, static_cast<std::uint32_t>(i), size, mass});

@@ -15,6 +15,7 @@ namespace {
 
 // Shares of a step: a point that near to an earlier one is left out; those that can slide may begin nearer.
 constexpr double kCornersApart = 0.85, kSlidersApart = 0.6;
+constexpr double kTooMany = 4.0;                    ///< times what may be: then nearness does not thin them out enough
 constexpr double kShortest = 0.96;                  ///< steps may be this share of a step to divide a line equally
 constexpr std::size_t kFarthestWork = 100'000'000;  ///< corners x points up to which the farthest are sought
 
@@ -50,20 +51,18 @@ class Accepted {
 };
 
 /// `count` of the places: the first one, then always the one farthest from those taken.
-std::vector<bool> farthest(const Points& places, std::size_t count) {
-    std::vector<bool> taken(places.size(), false);
+Points farthest(const Points& places, std::size_t count) {
+    Points taken;
     if (places.size() * count > kFarthestWork) {
-        for (std::size_t k = 0; k < count; ++k) taken[k * places.size() / count] = true;
+        for (std::size_t k = 0; k < count; ++k) taken.push_back(places[k * places.size() / count]);
         return taken;
     }
     std::vector<double> distance(places.size(), std::numeric_limits<double>::infinity());
     std::size_t next = 0;
-    for (std::size_t k = 0; k < count; ++k) {
-        taken[next] = true;
-        distance[next] = -1.0;
-        for (std::size_t i = 0; i < places.size(); ++i) {
-            if (!taken[i]) distance[i] = std::min(distance[i], glm::distance(places[i], places[next]));
-        }
+    while (taken.size() < count) {
+        taken.push_back(places[next]);
+        for (std::size_t i = 0; i < places.size(); ++i)
+            distance[i] = std::min(distance[i], glm::distance(places[i], places[next]));
         next = static_cast<std::size_t>(std::max_element(distance.begin(), distance.end()) - distance.begin());
     }
     return taken;
@@ -85,8 +84,11 @@ void EdgePoints::add(const Vec3& at, std::optional<Slider> slider) {
     sliders_.push_back(slider);
 }
 
-void EdgePoints::place_by_step(double step, bool lines) {
+void EdgePoints::place_by_step(double step, bool lines, std::size_t most) {
     clear();
+    double wanted = 0.0;
+    for (const LineTrack& track : tracks_) wanted += track.length() / step;
+    if (lines && wanted > kTooMany * static_cast<double>(most)) return;
     reach_ = 0.1 * step;
     Accepted accepted(kCornersApart * step);
     const auto stand = [&](const std::vector<std::uint32_t>& vertices) {
@@ -95,7 +97,10 @@ void EdgePoints::place_by_step(double step, bool lines) {
         }
     };
     stand(edges_.tips);
-    if (!lines) return;
+    if (!lines) {
+        if (points_.size() > most) clear();
+        return;
+    }
     stand(edges_.corners);
     for (std::size_t k = 0; k < tracks_.size(); ++k) {
         const LineTrack& track = tracks_[k];
@@ -106,6 +111,7 @@ void EdgePoints::place_by_step(double step, bool lines) {
             if (accepted.accept(at, kSlidersApart * step)) add(at, Slider{k, along});
         }
     }
+    if (points_.size() > most) clear();
 }
 
 double EdgePoints::place(std::size_t count) {
@@ -116,20 +122,27 @@ double EdgePoints::place(std::size_t count) {
     std::set_difference(edges_.corners.begin(), edges_.corners.end(), edges_.tips.begin(), edges_.tips.end(),
                         std::back_inserter(corners));
     for (const std::uint32_t v : corners) stations.push_back(mesh_.vertices[v]);
+    double length = 0.0;
     for (const LineTrack& track : tracks_) {
+        length += track.length();
         if (track.closed()) stations.push_back(track.at(0.0));
     }
-    const std::vector<bool> taken = farthest(stations, std::min(count, stations.size()));
-    for (std::size_t i = 0; i < stations.size(); ++i) {
-        if (taken[i]) add(stations[i], std::nullopt);
+    if (stations.size() > count) {
+        for (const Vec3& station : farthest(stations, count)) add(station, std::nullopt);
+    } else {
+        const double apart = kSlidersApart * length / static_cast<double>(count);
+        Accepted accepted(apart);
+        for (const Vec3& station : stations) {
+            if (accepted.accept(station, apart)) add(station, std::nullopt);
+        }
     }
     std::vector<double> lengths;
     for (const LineTrack& track : tracks_) lengths.push_back(track.length());
     const std::vector<std::size_t> inside = points_inside(lengths, count - points_.size());
-    double smallest = std::numeric_limits<double>::infinity();
+    double smallest = length;
     for (std::size_t k = 0; k < tracks_.size(); ++k) {
         const double step = lengths[k] / static_cast<double>(inside[k] + 1);
-        smallest = std::min(smallest, step);
+        if (inside[k] > 0) smallest = std::min(smallest, step);
         for (std::size_t n = 1; n <= inside[k]; ++n) {
             const double along = step * static_cast<double>(n);
             add(tracks_[k].at(along), Slider{k, along});

@@ -16,10 +16,10 @@ class EdgePoints {
     [[nodiscard]] bool none() const { return edges_.lines.empty(); }
 
     /// The corners, and equal steps of about `step` between them, without those nearer than half a step to another.
-    /// @param lines  else only the corners where lines meet, and spikes.
-    void place_by_step(double step, bool lines);
+    /// @param lines  else only the corners where lines meet, and spikes. None where that would be more than `most`.
+    void place_by_step(double step, bool lines, std::size_t most);
     /// Exactly `count`: corners first (the farthest apart where there are too many), then equal steps. There must be
-    /// sharp edges. Returns the smallest step.
+    /// sharp edges. Returns the smallest step on a line.
     double place(std::size_t count);
     void clear();
 

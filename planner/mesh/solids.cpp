@@ -11,12 +11,12 @@ namespace aerogram::planner {
 namespace {
 
 // Round solids have this many rings from a pole to the rim, and four times as many chords round the rim: their facets
-// are within 2e-4 of the width from the true surface.
+// are within 4e-4 of the width from the true surface.
 constexpr std::uint32_t kRings = 40;
 constexpr std::uint32_t kChords = 4 * kRings;
-constexpr std::uint32_t kInnermost =
-    6;  ///< chords in a quarter of the rings near the pole, so that a cone is round there
-constexpr std::uint32_t kRows = 24, kTubeChords = 64;
+// Chords in a quarter of the rings near a pole, so that a cone's tip is round.
+constexpr std::uint32_t kInnermost = 10;
+constexpr std::uint32_t kRows = 24, kTubeChords = 80;
 
 /// Radius and height of a ring by its share of the way from the pole to the rim.
 using Profile = std::function<Vec2(double share)>;

@@ -75,18 +75,22 @@ std::size_t spread_rounds(std::size_t count) {
     return std::clamp(kWork / count, kRounds, kRoundsAtMost);
 }
 
-void spread_apart(Points& points, const std::vector<double>& reach, const Ground& ground, std::size_t rounds,
-                  const Run& run) {
-    if (points.size() < 2) return;
+Targets targets_for(const Points& points, const std::vector<double>& reach) {
+    if (points.size() < 2) return {};
     std::vector<double> sorted = gaps(points, reach);
     std::sort(sorted.begin(), sorted.end());
     const double wide = sorted[sorted.size() * 3 / 4];
-    double best_share = sorted.front();
-    if (!(wide > 0.0)) return;
+    return {kFirst * wide, kLast * wide};
+}
+
+void spread_apart(Points& points, const std::vector<double>& reach, const Ground& ground, const Targets& targets,
+                  std::size_t rounds, const Run& run) {
+    double best_share = smallest_share(points, reach);
+    if (points.size() < 2 || !(targets.last > 0.0)) return;
     Points best = points, push(points.size());
     for (std::size_t round = 0; round <= rounds && !run.stopped(); ++round) {
         const double done = static_cast<double>(round) / static_cast<double>(rounds);
-        const double target = wide * (kFirst + (kLast - kFirst) * done);
+        const double target = targets.first + (targets.last - targets.first) * done;
         if (target < best_share) break;  // nothing to win any more
         const SpaceGrid grid(points, target);
         double smallest = target;

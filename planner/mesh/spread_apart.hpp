@@ -42,13 +42,20 @@ struct Ground {
 /// How many rounds `count` points deserve: more when there are few.
 [[nodiscard]] std::size_t spread_rounds(std::size_t count);
 
+/// Which distances to try for, as multiples of the reaches.
+struct Targets {
+    double first = 1.0, last = 0.4;
+};
+/// Around the gaps that points already have which are about evenly spread.
+[[nodiscard]] Targets targets_for(const Points& points, const std::vector<double>& reach);
+
 /// Widens the smallest distance in space of points that are about evenly spread, as push_apart.hpp does in the plane:
-/// pairs nearer than a target slide apart on their ground, the target falling from what the widest gaps promise to what
-/// can be reached; the round with the widest smallest distance is kept. Points on the two sides of a thin wall come to
+/// pairs nearer than a target slide apart on their ground, the target falling from the first to
+/// the last; the round with the widest smallest distance is kept. Points on the two sides of a thin wall come to
 /// stand alternately.
 /// @param reach  one a point, > 0: targets in proportion to it, so that dense parts stay dense.
 /// Properties: (1) the smallest share never falls (2) deterministic. Cost: O(n) a round.
-void spread_apart(Points& points, const std::vector<double>& reach, const Ground& ground, std::size_t rounds,
-                  const Run& run);
+void spread_apart(Points& points, const std::vector<double>& reach, const Ground& ground, const Targets& targets,
+                  std::size_t rounds, const Run& run);
 
 }  // namespace aerogram::planner

@@ -41,10 +41,8 @@ void SurfacePoints::place_on_edges(double area, std::size_t count) {
     const auto at_most = [&](double share) {
         return count <= kFew ? count : static_cast<std::size_t>(share * static_cast<double>(count));
     };
-    edges_.place_by_step(step, true);
-    if (edges_.points().size() <= at_most(kOnEdges)) return;
-    edges_.place_by_step(step, false);
-    if (edges_.points().size() > at_most(kOnTips)) edges_.clear();
+    edges_.place_by_step(step, true, at_most(kOnEdges));
+    if (edges_.points().empty()) edges_.place_by_step(step, false, at_most(kOnTips));
 }
 
 Freedom SurfacePoints::freedom(std::size_t i) const {

@@ -20,7 +20,8 @@ Points sample_surface(const TriangleMesh& mesh, std::size_t count, const Density
     Points points = on_skin.points();
     const Ground ground{[&](std::size_t i) { return on_skin.freedom(i); },
                         [&](std::size_t i, const Vec3& wanted) { return on_skin.move(i, wanted); }};
-    spread_apart(points, on_skin.reaches(), ground, spread_rounds(count), run);
+    const std::vector<double> reach = on_skin.reaches();
+    spread_apart(points, reach, ground, targets_for(points, reach), spread_rounds(count), run);
     return points;
 }
 
@@ -33,7 +34,7 @@ Points sample_edges(const TriangleMesh& mesh, std::size_t count) {
     if (smallest_share(points, reach) >= kFacing) return points;
     const Ground ground{[&](std::size_t i) { return on_edges.freedom(i); },
                         [&](std::size_t i, const Vec3& wanted) { return on_edges.move(i, wanted); }};
-    spread_apart(points, reach, ground, kSlideRounds, {});
+    spread_apart(points, reach, ground, {}, kSlideRounds, {});
     return points;
 }
 

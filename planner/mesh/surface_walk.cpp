@@ -17,10 +17,11 @@ double along(const Vec3& p, const Vec3& a, const Vec3& b) {
 
 Vec3 nearest_shares(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
     const Vec3 u = b - a, v = c - a, w = p - a;
-    const double uu = glm::dot(u, u), uv = glm::dot(u, v), vv = glm::dot(v, v);
-    const double wu = glm::dot(w, u), wv = glm::dot(w, v), area = uu * vv - uv * uv;
-    if (area > 0.0) {
-        const double s = (vv * wu - uv * wv) / area, t = (uu * wv - uv * wu) / area;
+    const Vec3 across = glm::cross(u, v);  // rather than by dot products, which needles leave nothing of
+    const double squared_area = glm::dot(across, across);
+    if (squared_area > 0.0) {
+        const double s = glm::dot(glm::cross(w, v), across) / squared_area;
+        const double t = glm::dot(glm::cross(u, w), across) / squared_area;
         if (s >= 0.0 && t >= 0.0 && s + t <= 1.0) return {1.0 - s - t, s, t};
     }
     const double ab = along(p, a, b), bc = along(p, b, c), ca = along(p, c, a);

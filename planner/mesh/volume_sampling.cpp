@@ -81,7 +81,7 @@ Points sample_volume(const TetrahedralMesh& inside, std::size_t count, const Den
                                 density && density(next.at) < std::min(kSparsest * mean, density(points[i]));
                             return empty ? places[i].at : (places[i] = next).at;
                         }};
-    spread_apart(points, reach, ground, spread_rounds(count), run);
+    spread_apart(points, reach, ground, targets_for(points, reach), spread_rounds(count), run);
     return points;
 }
 
