@@ -15,6 +15,7 @@ Result<Figure> figure_of(const PartRef& ref, const Run& run) {
     if (const auto* csv = std::get_if<CsvSource>(&ref.part.source)) return csv_figure(ref, *csv);
     if (const auto* shape = std::get_if<ShapeSource>(&ref.part.source)) return shape_figure(ref, *shape, run);
     if (const auto* sketch = std::get_if<SketchSource>(&ref.part.source)) return sketch_figure(ref, *sketch, run);
+    if (const auto* mesh = std::get_if<MeshSource>(&ref.part.source)) return mesh_figure(ref, *mesh, run);
     return ref.error(": source not in this version");
 }
 

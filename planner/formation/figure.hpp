@@ -32,7 +32,8 @@ struct Figure {
     /// Or the colours of points given before they are stretched; absent: the source has none.
     std::function<std::vector<Rgb>(const Points& natural)> colors_at{};
     /// How far a place of the area, surface or volume that is shown is from the nearest of points(scale), on average:
-    /// paper 003, equation 4, divided by the number of places; metres. Empty: the source is no such thing.
+    /// paper 003, equation 4, divided by the number of places; metres; places count by the part's density. Empty: the
+    /// source is no such thing.
     std::function<double(const Vec3& scale, const Points& points)> coverage{};
     std::string note{};      ///< what people should know: "resampled from 12000 points"
     bool in_metres = false;  ///< its natural unit is the metre: without a size it is used as it is
@@ -51,7 +52,7 @@ Result<Figure> sketch_figure(const PartRef& ref, const SketchSource& source, con
 Result<Figure> csv_figure(const PartRef& ref, const CsvSource& source);
 Result<Figure> shape_figure(const PartRef& ref, const ShapeSource& source, const Run& run);
 /// The shapes with three dimensions and a skin: sphere, dome, cube, torus, cylinder, cone. The skin of a dome has no
-/// floor; round ones are within 3e-4 of their width.
+/// floor; round ones are within 4e-4 of their width.
 Result<Figure> solid_shape_figure(const PartRef& ref, const ShapeSource& source, const Run& run);
 
 }  // namespace aerogram::planner
