@@ -68,7 +68,8 @@ SeenLight PictureLight::around(const Vec2& place, double reach) const {
         }
     }
     const double area = (high.x - low.x) * (high.y - low.y);
-    return {{out.color.r / area, out.color.g / area, out.color.b / area}, out.alpha / area};
+    const auto mean = [area](double sum) { return std::min(1.0, sum / area); };  // areas are rounded
+    return {{mean(out.color.r), mean(out.color.g), mean(out.color.b)}, mean(out.alpha)};
 }
 
 PictureFit fit_over(const PictureLight& picture, const Vec2& box, std::size_t count) {

@@ -71,6 +71,19 @@ TEST(PictureLight, AtAPixelsMiddleHalfACellAroundIsThatPixel) {
     }
 }
 
+/// The lights of a white picture were 1 + 2e-16: verify refused the show.
+TEST(PictureLight, NothingIsBrighterThanWhite) {
+    const Picture white{7, 7, std::vector<std::uint8_t>(4 * 49, 255)};
+    const PictureLight light(white, 49);
+    Random random(3);
+    for (int round = 0; round < 20'000; ++round) {
+        const SeenLight seen =
+            light.around({random.between(0.0, 7.0), random.between(0.0, 7.0)}, random.between(0.5, 4));
+        ASSERT_LE(seen.color.r, 1.0);
+        ASSERT_LE(seen.alpha, 1.0);
+    }
+}
+
 TEST(PictureLight, OutsideThereIsNothing) {
     const PictureLight light(random_picture(5, 4, 2), 20);
     EXPECT_EQ(light.around({-1.0, 2.0}, 0.9).alpha, 0.0);
