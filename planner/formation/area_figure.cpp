@@ -69,18 +69,21 @@ Figure flat_figure(const Vec2& extent, std::function<std::vector<Vec2>(const Vec
     return figure;
 }
 
+std::size_t places_for(std::size_t count) {
+    return std::clamp(kPlacesPerPoint * count, kPlacesAtLeast, kPlacesAtMost);
+}
+
 std::function<double(const Vec3& scale, const Points& points)> area_coverage(std::shared_ptr<const Region> region,
                                                                              DensityField density) {
     return [region = std::move(region), density = std::move(density)](const Vec3& scale, const Points& points) {
-        const std::size_t cells = std::clamp(kPlacesPerPoint * points.size(), kPlacesAtLeast, kPlacesAtMost);
+        const std::size_t cells = places_for(points.size());
         DensityRaster area = rasterised(stretched(*region, {scale.x, scale.z}), cells);
         if (density) {
-            const DensityRaster all = area;
             for (std::size_t c = 0; c < area.mass.size(); ++c) {
                 const Vec2 at = area.centre(c % area.across, c / area.across);
-                if (density({at.x / scale.x, 0.0, at.y / scale.z}) <= 0.0) area.mass[c] = 0.0F;
+                area.mass[c] *= static_cast<float>(std::max(density({at.x / scale.x, 0.0, at.y / scale.z}), 0.0));
             }
-            if (area.total() <= 0.0) area = all;
+            if (area.total() <= 0.0) area = rasterised(stretched(*region, {scale.x, scale.z}), cells);
         }
         std::vector<Vec2> sites;
         sites.reserve(points.size());

@@ -17,8 +17,11 @@ namespace aerogram::planner {
 /// along x and y.
 [[nodiscard]] Figure flat_figure(const Vec2& extent, std::function<std::vector<Vec2>(const Vec2& stretch)> sample);
 
-/// Figure::coverage of an area by points in the plane y = 0: its places are about sixteen cells a point.
-/// @param region  its box's middle at (0, 0). @param density  places where it is 0 do not count; empty: all count.
+/// How many cells of an area are enough to measure the coverage by `count` points.
+[[nodiscard]] std::size_t places_for(std::size_t count);
+
+/// Figure::coverage of an area by points in the plane y = 0: its places are square cells.
+/// @param region  its box's middle at (0, 0). @param density  places count by it; empty: alike.
 [[nodiscard]] std::function<double(const Vec3& scale, const Points& points)> area_coverage(
     std::shared_ptr<const Region> region, DensityField density);
 

@@ -172,8 +172,24 @@ class Builder {
             problem(part.ref, too_close + "; no size_m can part points in the same place");
         } else {
             problem(part.ref, ".size_m" + too_close + "; needs size_m >= " +
-                                  needed_size(part.figure, part.drawn, wanted_m, part.spacing_of));
+                                  needed_size(at_any_size(part), part.drawn, wanted_m, part.spacing_of));
         }
+    }
+
+    /// A part's figure for other sizes than its own: brush strokes are in metres, so where they are depends on the
+    /// size.
+    Figure at_any_size(const PlacedPart& placed) const {
+        Figure out = placed.figure;
+        if (placed.ref.part.density.brush.empty()) return out;
+        out.points = [this, &placed](const Vec3& scale) {
+            const Vec3 size_m = placed.figure.extent * scale;
+            const auto side = [&](int axis) { return size_m[axis] > 0.0 ? std::optional(size_m[axis]) : std::nullopt; };
+            Part part = placed.ref.part;
+            part.size = {side(0), side(1), side(2)};
+            const auto figure = figure_of({mission_, part, placed.ref.key}, run_);
+            return figure ? figure->points(scale) : placed.figure.points(scale);
+        };
+        return out;
     }
 
     /// One message a part and bound: its lowest slot above the lowest altitude, its highest below the ceiling.

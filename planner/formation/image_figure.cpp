@@ -1,62 +1,36 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <utility>
 
 #include "planner/formation/area_figure.hpp"
+#include "planner/formation/image_contour.hpp"
+#include "planner/formation/part_density.hpp"
+#include "planner/formation/seen_picture.hpp"
 #include "planner/picture/palette.hpp"
-#include "planner/picture/picture.hpp"
 #include "planner/sampling/area_sampling.hpp"
+#include "planner/sampling/lloyd.hpp"
 
 namespace aerogram::planner {
 namespace {
 
 constexpr double kLargestRaster = 16'000'000.0;  ///< cells
 constexpr int kSamplesAcross = 4;                ///< of a cell that is wider than a pixel
+constexpr double kPixelsInside = 2.0;            ///< a contour's colours are met this far inside
 
-/// What is to be seen of a picture. Natural coordinates: pixels, y up, the middle of the box of what is seen at (0, 0).
-struct Seen {
-    Picture picture;
-    std::vector<float> weight;  ///< one a pixel; 0 where nothing is to be seen
-    Vec2 low{}, high{};         ///< of the box, pixels, y down
-    std::size_t lit = 0;        ///< pixels to be seen
+using Seen = std::shared_ptr<const SeenPicture>;
 
-    /// The pixel that holds a place, in (column, row), or nothing.
-    [[nodiscard]] std::optional<std::size_t> pixel_at(const Vec2& natural) const {
-        const Vec2 middle = 0.5 * (low + high);
-        const double column = std::floor(natural.x + middle.x), row = std::floor(middle.y - natural.y);
-        if (column < low.x || row < low.y || column >= high.x || row >= high.y) return std::nullopt;
-        return static_cast<std::size_t>(row) * picture.width + static_cast<std::size_t>(column);
-    }
-};
-
-Result<std::shared_ptr<const Seen>> look(Picture picture, const ImageSource& source) {
-    auto seen = std::make_shared<Seen>();
-    seen->weight.assign(picture.width * picture.height, 0.0F);
-    seen->low = Vec2(1e300);
-    seen->high = Vec2(-1e300);
-    for (std::size_t p = 0; p < seen->weight.size(); ++p) {
-        const double bright = luminance(picture.light(p)) * picture.alpha(p);
-        if (bright <= 0.0 || bright < source.threshold) continue;
-        seen->weight[p] = source.density == ImageDensity::even ? 1.0F : static_cast<float>(bright);
-        const Vec2 corner(static_cast<double>(p % picture.width), static_cast<double>(p / picture.width));
-        seen->low = glm::min(seen->low, corner);
-        seen->high = glm::max(seen->high, corner + Vec2(1.0));
-        ++seen->lit;
-    }
-    if (seen->lit == 0) {
-        return Error{ErrorCode::invalid_input,
-                     "is dark everywhere: no pixel's luminance times alpha reaches threshold"};
-    }
-    seen->picture = std::move(picture);
-    return std::shared_ptr<const Seen>(std::move(seen));
+/// Natural coordinates: pixels, y up, the middle of the box of what is seen at (0, 0).
+Vec2 place_of(const SeenPicture& seen, const Vec2& natural) {
+    return seen.middle() + Vec2(natural.x, -natural.y);
 }
 
 /// The picture's weight by square cells, after stretching.
-DensityRaster density_of(const Seen& seen, const Vec2& stretch, std::size_t count) {
+DensityRaster raster_of(const SeenPicture& seen, const Vec2& stretch, std::size_t cells) {
     const Vec2 size = (seen.high - seen.low) * stretch;
     DensityRaster raster;
     const double area = static_cast<double>(seen.lit) * stretch.x * stretch.y;
-    raster.cell = std::max(std::sqrt(area / static_cast<double>(cells_for(count))),
+    raster.cell = std::max(std::sqrt(area / static_cast<double>(cells)),
                            std::max(std::sqrt(size.x * size.y / kLargestRaster), std::max(size.x, size.y) / 1e5));
     raster.across = static_cast<std::size_t>(std::ceil(size.x / raster.cell));
     raster.up = static_cast<std::size_t>(std::ceil(size.y / raster.cell));
@@ -69,7 +43,8 @@ DensityRaster density_of(const Seen& seen, const Vec2& stretch, std::size_t coun
         float sum = 0.0F;
         for (int i = 0; i < samples * samples; ++i) {
             const Vec2 within = (Vec2(i % samples, i / samples) + 0.5) / static_cast<double>(samples) - 0.5;
-            if (const auto pixel = seen.pixel_at((centre + raster.cell * within) / stretch)) sum += seen.weight[*pixel];
+            const auto pixel = seen.pixel_at(place_of(seen, (centre + raster.cell * within) / stretch));
+            if (pixel) sum += seen.weight[*pixel];
         }
         raster.mass[c] = sum / static_cast<float>(samples * samples);
     }
@@ -78,52 +53,77 @@ DensityRaster density_of(const Seen& seen, const Vec2& stretch, std::size_t coun
     return raster;
 }
 
-/// The mean light of what is seen around a place; the window grows until it holds something.
-Rgb light_around(const Seen& seen, const Vec2& natural, double reach) {
-    const Vec2 middle = 0.5 * (seen.low + seen.high);
-    const Vec2 at(natural.x + middle.x, middle.y - natural.y);
-    for (;; reach *= 2.0) {
-        const auto first = [&](double v, double low) { return std::floor(std::max(v - reach, low)); };
-        const auto last = [&](double v, double high) { return std::min(v + reach, high - 1.0); };
-        Rgb sum;
-        double count = 0.0;
-        for (double y = first(at.y, seen.low.y); y <= last(at.y, seen.high.y); y += 1.0) {
-            for (double x = first(at.x, seen.low.x); x <= last(at.x, seen.high.x); x += 1.0) {
-                const auto p = static_cast<std::size_t>(y) * seen.picture.width + static_cast<std::size_t>(x);
-                if (seen.weight[p] <= 0.0F) continue;
-                const Rgb light = seen.picture.light(p);
-                const double alpha = seen.picture.alpha(p);
-                sum = {sum.r + light.r * alpha, sum.g + light.g * alpha, sum.b + light.b * alpha};
-                count += 1.0;
-            }
-        }
-        if (count > 0.0) return {sum.r / count, sum.g / count, sum.b / count};
+/// Times the part's density; as it was where that leaves nothing.
+DensityRaster times(DensityRaster raster, const DensityField& density, const Vec2& stretch) {
+    if (!density) return raster;
+    DensityRaster out = raster;
+    for (std::size_t c = 0; c < out.mass.size(); ++c) {
+        const Vec2 at = out.centre(c % out.across, c / out.across) / stretch;
+        if (out.mass[c] > 0.0F) out.mass[c] *= static_cast<float>(std::max(density({at.x, 0.0, at.y}), 0.0));
     }
+    return out.total() > 0.0 ? out : raster;
+}
+
+std::vector<Rgb> in_palette(std::vector<Rgb> colors, const std::optional<std::uint32_t>& palette) {
+    return palette ? reduced(colors, *palette) : std::move(colors);
+}
+
+Result<Figure> filled(const PartRef& ref, const ImageSource& source, const Seen& seen, const Run& run) {
+    const std::size_t count = ref.part.drones;
+    const Vec2 extent = seen->high - seen->low;
+    const auto density = density_of(ref, {extent.x, 0.0, extent.y});
+    if (!density) return density.error();
+    const bool even = source.density == ImageDensity::even && !*density;
+    Figure figure = flat_figure(extent, [seen, count, even, density = *density, run](const Vec2& stretch) {
+        const DensityRaster raster = times(raster_of(*seen, stretch, cells_for(count)), density, stretch);
+        return even ? sample_evenly(raster, count, run) : sample_density(raster, count, run);
+    });
+    figure.coverage = [seen, density = *density](const Vec3& scale, const Points& points) {
+        const Vec2 stretch(scale.x, scale.z);
+        std::vector<Vec2> sites;
+        for (const Vec3& p : points) sites.emplace_back(p.x, p.z);
+        return mean_distance(sites, times(raster_of(*seen, stretch, places_for(sites.size())), density, stretch));
+    };
+    const double reach = 0.35 * std::sqrt(static_cast<double>(seen->lit) / static_cast<double>(count));
+    figure.colors_at = [seen, reach, palette = source.palette](const Points& natural) {
+        std::vector<Rgb> colors;
+        colors.reserve(natural.size());
+        for (const Vec3& p : natural) colors.push_back(seen->light_around(place_of(*seen, {p.x, p.z}), reach));
+        return in_palette(std::move(colors), palette);
+    };
+    return figure;
+}
+
+Result<Figure> contoured(const PartRef& ref, const ImageSource& source, const Seen& seen, const std::string& key) {
+    auto contour = image_contour(*seen, source.threshold, ref.part.drones);
+    if (!contour) return Error{contour.error().code, ref.error(key + contour.error().message).message};
+    const Bounds box = bounds_of(contour->region);
+    const Vec2 middle = 0.5 * (box.low + box.high);
+    const double inside = kPixelsInside * std::max(contour->step, 1.0);
+    Figure figure = outlined_figure(std::move(contour->region), ref.part.drones);
+    if (contour->specks > 0)
+        figure.note = "left out " + std::to_string(contour->specks) +
+                      (contour->specks == 1 ? " contour" : " contours") + " too short for two drones";
+    figure.colors_at = [seen, middle, inside, palette = source.palette](const Points& natural) {
+        const double height = static_cast<double>(seen->picture.height);
+        std::vector<Rgb> colors;
+        colors.reserve(natural.size());
+        for (const Vec3& p : natural) {
+            const Vec2 place(p.x + middle.x, height - (p.z + middle.y));
+            colors.push_back(seen->light_around(seen->inwards(place, inside), 0.5 * inside));
+        }
+        return in_palette(std::move(colors), palette);
+    };
+    return figure;
 }
 
 }  // namespace
 
 Result<Figure> image_figure(const PartRef& ref, const ImageSource& source, const Run& run) {
     const std::string key = ".image = \"" + source.file.generic_string() + "\": ";
-    auto picture = read_picture(source.file);
-    if (!picture) return Error{picture.error().code, ref.error(key + picture.error().message).message};
-    const auto looked = look(std::move(*picture), source);
-    if (!looked) return ref.error(key + looked.error().message);
-    const std::shared_ptr<const Seen> seen = *looked;
-    const std::size_t count = ref.part.drones;
-    const bool even = source.density == ImageDensity::even;
-    Figure figure = flat_figure(seen->high - seen->low, [seen, count, even, run](const Vec2& stretch) {
-        const DensityRaster density = density_of(*seen, stretch, count);
-        return even ? sample_evenly(density, count, run) : sample_density(density, count, run);
-    });
-    const double reach = 0.35 * std::sqrt(static_cast<double>(seen->lit) / static_cast<double>(count));
-    figure.colors_at = [seen, reach, palette = source.palette](const Points& natural) {
-        std::vector<Rgb> colors;
-        colors.reserve(natural.size());
-        for (const Vec3& p : natural) colors.push_back(light_around(*seen, {p.x, p.z}, reach));
-        return palette ? reduced(colors, *palette) : colors;
-    };
-    return figure;
+    const auto seen = seen_picture(source);
+    if (!seen) return Error{seen.error().code, ref.error(key + seen.error().message).message};
+    return source.contour ? contoured(ref, source, *seen, key) : filled(ref, source, *seen, run);
 }
 
 }  // namespace aerogram::planner

@@ -5,6 +5,7 @@
 #include "geo/units.hpp"
 #include "planner/formation/area_figure.hpp"
 #include "planner/formation/figure.hpp"
+#include "planner/formation/wave_figure.hpp"
 #include "planner/sampling/area_shapes.hpp"
 #include "planner/sampling/curve.hpp"
 #include "planner/sampling/sphere_points.hpp"
@@ -112,6 +113,25 @@ Figure helix_figure(std::size_t drones, double turns) {
             }};
 }
 
+/// Archimedes', upright, from the middle out to the top, clockwise as the audience sees it.
+Figure spiral_figure(std::size_t drones, double turns) {
+    const auto curve = [turns](double t) {
+        const double angle = 2.0 * kPi * turns * (t - 1.0);
+        return 0.5 * t * Vec3(std::sin(angle), 0.0, std::cos(angle));
+    };
+    const auto steps = 4096 + static_cast<std::size_t>(256.0 * turns);
+    Vec3 low{}, high{};
+    for (std::size_t i = 0; i <= steps; ++i) {
+        const Vec3 p = curve(real(i) / real(steps));
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+    const Vec3 middle = 0.5 * (low + high);
+    return {.extent = high - low, .points = [curve, middle, steps, drones](const Vec3& scale) {
+                return equally_spaced([&](double t) { return scale * (curve(t) - middle); }, drones, false, steps);
+            }};
+}
+
 Figure sphere_figure(std::size_t drones, const Run& run) {
     return {.extent = {1.0, 1.0, 1.0},
             .points = [drones, run](const Vec3& scale) { return spread_on_ellipsoid(0.5 * scale, drones, run); }};
@@ -127,19 +147,36 @@ Result<Figure> shape_figure(const PartRef& ref, const ShapeSource& source, const
         case ShapeKind::circle:
             return circle_figure(drones);
         case ShapeKind::sphere:
+            if (source.solid_style != SolidStyle::surface || !ref.part.density.even())
+                return solid_shape_figure(ref, source, run);
             return sphere_figure(drones, run);
+        case ShapeKind::spiral:
+            return spiral_figure(drones, source.turns);
+        case ShapeKind::wave:
+            return wave_figure(drones, source.waves, run);
         case ShapeKind::helix:
             return helix_figure(drones, source.turns);
         case ShapeKind::disc:
-            return filled_figure(disc_region(), drones, source.outline_share, run);
+            return area_figure(ref, disc_region(), source.area_style, source.outline_share, run);
         case ShapeKind::ring:
-            return filled_figure(ring_region(source.inner), drones, source.outline_share, run);
+            return area_figure(ref, ring_region(source.inner), source.area_style, source.outline_share, run);
         case ShapeKind::square:
-            return filled_figure(square_region(), drones, source.outline_share, run);
+            return area_figure(ref, square_region(), source.area_style, source.outline_share, run);
+        case ShapeKind::polygon:
+            return area_figure(ref, polygon_region(source.sides), source.area_style, source.outline_share, run);
+        case ShapeKind::star:
+            return area_figure(ref, star_region(source.sides, source.inner), source.area_style, source.outline_share,
+                               run);
+        case ShapeKind::heart:
+            return area_figure(ref, heart_region(), source.area_style, source.outline_share, run);
         case ShapeKind::grid:
             break;
-        default:
-            return ref.error(".shape: not in this version");
+        case ShapeKind::dome:
+        case ShapeKind::cube:
+        case ShapeKind::torus:
+        case ShapeKind::cylinder:
+        case ShapeKind::cone:
+            return solid_shape_figure(ref, source, run);
     }
     const auto grid = grid_shape(ref, source);
     if (!grid) return grid.error();

@@ -33,10 +33,11 @@ double ContourTrack::way(double a, double b) const {
 
 std::vector<Vec2> ContourTrack::between(double from, double to) const {
     std::vector<Vec2> line{at(from)};
-    for (std::size_t lap = 0; lap < 2; ++lap) {
-        for (std::size_t i = 0; i < contour_.size(); ++i) {
-            const double along = along_[i] + static_cast<double>(lap) * length();
-            if (along > from && along < to && contour_[i] != line.back()) line.push_back(contour_[i]);
+    const auto next = std::upper_bound(along_.begin(), along_.end() - 1, from);
+    auto i = static_cast<std::size_t>(next - along_.begin());
+    for (double lap = 0.0; lap < 2.0; lap += 1.0, i = 0) {
+        for (; i < contour_.size() && along_[i] + lap * length() < to; ++i) {
+            if (contour_[i] != line.back()) line.push_back(contour_[i]);
         }
     }
     line.push_back(at(to));

@@ -5,8 +5,8 @@
 
 namespace aerogram::planner {
 
-Points equally_spaced(const std::function<Vec3(double t)>& curve, std::size_t count, bool closed) {
-    const std::size_t steps = 4096 + 16 * count;
+Points equally_spaced(const std::function<Vec3(double t)>& curve, std::size_t count, bool closed, std::size_t steps) {
+    steps += 16 * count;
     std::vector<double> along(steps + 1, 0.0);  // length up to t = i / steps
     Vec3 last = curve(0.0);
     for (std::size_t i = 1; i <= steps; ++i) {

@@ -1,8 +1,11 @@
 #include "planner/sampling/slide_apart.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <compare>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "geo/random.hpp"
 #include "planner/sampling/contour_track.hpp"
@@ -12,9 +15,10 @@
 namespace aerogram::planner {
 namespace {
 
-constexpr double kLast = 0.4;           ///< the last target, a share of the ideal
-constexpr double kStep = 0.45;          ///< share of an overlap that one point yields
-constexpr double kOnIt = 1e-6;          ///< shares of the ideal: nearer is on the contour, or at the corner
+constexpr double kLast = 0.4;   ///< the last target, a share of the ideal
+constexpr double kStep = 0.45;  ///< share of an overlap that one point yields
+constexpr double kOnIt = 1e-6;  ///< shares of the ideal: nearer is on the contour, or at the corner
+constexpr std::size_t kBandsAtMost = 4096;
 constexpr double kCornersApart = 0.25;  ///< likewise: a corner that near to an earlier one does not hold its point
 
 /// A point that can slide.
@@ -23,37 +27,95 @@ struct Slider {
     double along = 0.0;
 };
 
-std::optional<Slider> slider_at(const Region& region, const std::vector<ContourTrack>& tracks, const Vec2& p,
-                                double close) {
-    for (std::size_t c = 0; c < region.contours.size(); ++c) {
-        const Contour& contour = region.contours[c];
-        for (std::size_t i = 0; i < contour.size(); ++i) {
-            const Vec2 a = contour[i], d = contour[(i + 1) % contour.size()] - a;
-            const double squared = glm::dot(d, d);
-            if (squared <= 0.0) continue;
-            const double share = std::clamp(glm::dot(p - a, d) / squared, 0.0, 1.0);
-            if (glm::distance(p, a + share * d) > close) continue;
-            return Slider{c, tracks[c].of_vertex(i) + share * glm::length(d)};
+/// The contours' segments by level bands, so that those at a point's height are found at once.
+class Segments {
+  public:
+    Segments(const Region& region, const std::vector<ContourTrack>& tracks) : region_(region), tracks_(tracks) {
+        std::size_t count = 0;
+        for (const Contour& contour : region.contours) count += contour.size();
+        if (count == 0) return;
+        const Bounds box = bounds_of(region);
+        bands_.resize(std::clamp<std::size_t>(count / 4, 1, kBandsAtMost));
+        low_ = box.low.y;
+        height_ = std::max(box.size().y, 1e-300) / static_cast<double>(bands_.size());
+        for (std::size_t c = 0; c < region.contours.size(); ++c) {
+            const Contour& contour = region.contours[c];
+            for (std::size_t i = 0; i < contour.size(); ++i) {
+                const double y = contour[i].y, next = contour[(i + 1) % contour.size()].y;
+                for (std::size_t b = band(std::min(y, next)); b <= band(std::max(y, next)); ++b)
+                    bands_[b].push_back({c, i});
+            }
         }
     }
-    return std::nullopt;
-}
+
+    /// The first segment that p lies on, to `close`.
+    [[nodiscard]] std::optional<Slider> at(const Vec2& p, double close) const {
+        std::optional<Segment> first;
+        for (std::size_t b = band(p.y - close); b <= band(p.y + close) && !bands_.empty(); ++b) {
+            for (const Segment& segment : bands_[b]) {
+                if (first && !(segment < *first)) break;
+                if (distance(segment, p) <= close) first = segment;
+            }
+        }
+        if (!first) return std::nullopt;
+        const auto [a, d] = line(*first);
+        return Slider{first->contour,
+                      tracks_[first->contour].of_vertex(first->vertex) + share(a, d, p) * glm::length(d)};
+    }
+
+  private:
+    struct Segment {
+        std::size_t contour = 0, vertex = 0;
+        auto operator<=>(const Segment&) const = default;
+    };
+
+    [[nodiscard]] std::size_t band(double y) const {
+        const double most = static_cast<double>(bands_.size()) - 1.0;
+        return static_cast<std::size_t>(std::clamp(std::floor((y - low_) / height_), 0.0, std::max(most, 0.0)));
+    }
+    [[nodiscard]] std::pair<Vec2, Vec2> line(const Segment& segment) const {
+        const Contour& contour = region_.contours[segment.contour];
+        const Vec2 a = contour[segment.vertex];
+        return {a, contour[(segment.vertex + 1) % contour.size()] - a};
+    }
+    static double share(const Vec2& a, const Vec2& d, const Vec2& p) {
+        return std::clamp(glm::dot(p - a, d) / glm::dot(d, d), 0.0, 1.0);
+    }
+    [[nodiscard]] double distance(const Segment& segment, const Vec2& p) const {
+        const auto [a, d] = line(segment);
+        if (glm::dot(d, d) <= 0.0) return std::numeric_limits<double>::infinity();
+        return glm::distance(p, a + share(a, d, p) * d);
+    }
+
+    const Region& region_;
+    const std::vector<ContourTrack>& tracks_;
+    std::vector<std::vector<Segment>> bands_;  ///< each in the contours' order
+    double low_ = 0.0, height_ = 1.0;
+};
 
 /// The points that may slide: on a contour, and not holding a corner.
 std::vector<std::optional<Slider>> sliders_of(const Region& region, const std::vector<ContourTrack>& tracks,
                                               const std::vector<Vec2>& points, double ideal) {
-    std::vector<Vec2> corners, held;
+    std::vector<Vec2> corners;
     for (const Contour& contour : region.contours) {
         for (const std::size_t i : corners_of(contour)) corners.push_back(contour[i]);
     }
-    const auto near_any = [](const std::vector<Vec2>& places, const Vec2& p, double reach) {
-        return std::any_of(places.begin(), places.end(), [&](const Vec2& q) { return glm::distance(p, q) < reach; });
-    };
+    const SiteGrid corner_grid(corners, ideal), point_grid(points, kCornersApart * ideal);
+    const Segments segments(region, tracks);
+    std::vector<bool> held(points.size(), false);
     std::vector<std::optional<Slider>> out;
-    for (const Vec2& p : points) {
-        const bool holds = near_any(corners, p, kOnIt * ideal) && !near_any(held, p, kCornersApart * ideal);
-        if (holds) held.push_back(p);
-        out.push_back(holds ? std::nullopt : slider_at(region, tracks, p, kOnIt * ideal));
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        bool at_corner = false, taken = false;
+        corner_grid.near(points[i], 1, [&](std::size_t, const Vec2& corner) {
+            at_corner = at_corner || glm::distance(points[i], corner) < kOnIt * ideal;
+        });
+        if (at_corner) {
+            point_grid.near(points[i], 1, [&](std::size_t j, const Vec2& p) {
+                taken = taken || (held[j] && glm::distance(points[i], p) < kCornersApart * ideal);
+            });
+        }
+        held[i] = at_corner && !taken;
+        out.push_back(held[i] ? std::nullopt : segments.at(points[i], kOnIt * ideal));
     }
     return out;
 }

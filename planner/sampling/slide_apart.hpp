@@ -12,7 +12,7 @@ namespace aerogram::planner {
 /// that run close to each other come to stand alternately.
 /// @param points  those off all contours, and those at corners that are apart, stay. @param ideal  > 0.
 /// Properties: (1) the smallest distance never falls (2) points stay on their contours (3) deterministic.
-/// Cost: O(points * segments) once, O(points) a round.
+/// Cost: O(segments + points) once where the segments are short, O(points) a round.
 [[nodiscard]] std::vector<Vec2> slide_apart(const Region& region, std::vector<Vec2> points, double ideal,
                                             std::size_t rounds);
 
