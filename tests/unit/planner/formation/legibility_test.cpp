@@ -10,24 +10,24 @@
 #include "planner/text/stroke_font.hpp"
 #include "tests/unit/planner/formation/missions.hpp"
 
-/// Can a letter be read off its drones? Discs at the slots are compared with thick drawings of all capital letters and
-/// digits.
+/// Can a letter be read off its drones? Discs whose radius is half the smallest spacing are compared with the font's
+/// own strokes, drawn by a pen as wide as the discs, of all capital letters and digits.
 namespace aerogram::planner::testing {
 namespace {
 
-constexpr double kHeight_m = 16.0, kPen_m = 2.4, kPixel_m = 0.2;
+constexpr double kHeight_m = 16.0, kPixel_m = 0.2;
 constexpr int kAcross = 140, kUp = 110;  ///< pixels; 28 x 22 m
 
-using Raster = std::vector<bool>;
+/// How far each pixel is from the ink's middle.
+using Distances = std::vector<double>;
 
-/// Everything within half a pen of `inked` (a distance function).
-template <class Distance>
-Raster raster(const Distance& inked) {
-    Raster out;
+/// @param inked  a place's distance.
+template <class Inked>
+Distances distances(const Inked& inked) {
+    Distances out;
     for (int row = 0; row < kUp; ++row) {
         for (int column = 0; column < kAcross; ++column) {
-            const Vec2 p((column + 0.5 - 0.5 * kAcross) * kPixel_m, (row + 0.5 - 0.5 * kUp) * kPixel_m);
-            out.push_back(inked(p) <= 0.5 * kPen_m);
+            out.push_back(inked(Vec2((column + 0.5 - 0.5 * kAcross) * kPixel_m, (row + 0.5 - 0.5 * kUp) * kPixel_m)));
         }
     }
     return out;
@@ -41,7 +41,7 @@ double distance_to_segment(const Vec2& p, const Vec2& a, const Vec2& b) {
 }
 
 /// The font's own strokes of a character, 16 m high and as wide as `size` says, the middle of its box at (0, 0).
-Raster drawing_of(const Glyph& glyph, const Size& size) {
+Distances drawing_of(const Glyph& glyph, const Size& size) {
     Vec2 low(1e9), top(-1e9);
     for (const Stroke& stroke : glyph.strokes) {
         for (const Vec2& p : stroke) {
@@ -51,7 +51,7 @@ Raster drawing_of(const Glyph& glyph, const Size& size) {
     }
     Vec2 scale(kHeight_m / (top.y - low.y));
     if (size.width_m && top.x > low.x) scale.x = *size.width_m / (top.x - low.x);
-    return raster([&](const Vec2& p) {
+    return distances([&](const Vec2& p) {
         double nearest = 1e9;
         for (const Stroke& stroke : glyph.strokes) {
             for (std::size_t i = 0; i + 1 < stroke.size(); ++i) {
@@ -63,19 +63,21 @@ Raster drawing_of(const Glyph& glyph, const Size& size) {
     });
 }
 
-Raster discs_at(const Points& slots) {
-    return raster([&](const Vec2& p) {
+Distances slots_seen(const Points& slots) {
+    return distances([&](const Vec2& p) {
         double nearest = 1e9;
         for (const Vec3& s : slots) nearest = std::min(nearest, glm::distance(p, Vec2(s.x, s.z)));
         return nearest;
     });
 }
 
-double overlap(const Raster& a, const Raster& b) {
+/// Intersection over union of what is within `radius_m`.
+double overlap(const Distances& a, const Distances& b, double radius_m) {
     int both = 0, either = 0;
     for (std::size_t i = 0; i < a.size(); ++i) {
-        both += a[i] && b[i];
-        either += a[i] || b[i];
+        const bool in_a = a[i] <= radius_m, in_b = b[i] <= radius_m;
+        both += in_a && in_b;
+        either += in_a || in_b;
     }
     return static_cast<double>(both) / either;
 }
@@ -83,16 +85,17 @@ double overlap(const Raster& a, const Raster& b) {
 const std::string kCharacters = "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789";
 
 /// The character whose drawing overlaps most with the drones that write `wanted`.
-char read_back(char wanted, std::size_t drones, const Size& size, const std::map<char, Raster>& drawings) {
+char read_back(char wanted, std::size_t drones, const Size& size, const std::map<char, Distances>& drawings) {
     Mission mission = mission_of({part_of(text(std::string(1, wanted)), drones, size)});
     mission.limits.formation_spacing_m = 0.1;  // legibility only
-    Points slots = build(mission).value().points_m;
+    const Formation formation = build(mission).value();
+    Points slots = formation.points_m;
     for (Vec3& p : slots) p.z -= 1000.0;
-    const Raster seen = discs_at(slots);
+    const Distances seen = slots_seen(slots);
     char best = '?';
     double best_overlap = -1.0;
     for (const auto& [character, drawing] : drawings) {
-        const double now = overlap(seen, drawing);
+        const double now = overlap(seen, drawing, 0.5 * formation.smallest_spacing_m);
         if (now > best_overlap) {
             best_overlap = now;
             best = character;
@@ -104,7 +107,7 @@ char read_back(char wanted, std::size_t drones, const Size& size, const std::map
 /// All characters by 10 to 16 drones: at least 95 of 100 read as themselves, those of figure 12 always.
 void expect_legible(const Size& size) {
     const StrokeFont font = load_stroke_font().value();
-    std::map<char, Raster> drawings;
+    std::map<char, Distances> drawings;
     for (const char c : kCharacters) drawings[c] = drawing_of(*font.glyphs[static_cast<std::size_t>(c)], size);
     int cases = 0, right = 0;
     for (const char c : kCharacters) {
