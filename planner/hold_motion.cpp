@@ -31,20 +31,21 @@ Vec3 barycentre(const Points& points_m, const std::vector<bool>& still) {
 /// A wave swells over this share of the hold and ebbs over as much.
 constexpr double kSwell = 0.25;
 
-/// How much of a wave is there at share s of the hold: 0 at both ends, 1 between.
-double swell(double s) {
-    const auto smooth = [](double u) { return profile_value(ProfileKind::minimum_jerk, std::clamp(u, 0.0, 1.0)); };
-    return smooth(s / kSwell) * smooth((1.0 - s) / kSwell);
+/// How much of a wave is there at share u of the hold's time: 0 at both ends, 1 between.
+double swell(double u) {
+    const auto smooth = [](double v) { return profile_value(ProfileKind::minimum_jerk, std::clamp(v, 0.0, 1.0)); };
+    return smooth(u / kSwell) * smooth((1.0 - u) / kSwell);
 }
 
-Vec3 wave_at(const Wave& wave, const Vec3& p, double s) {
+Vec3 wave_at(const Wave& wave, const Vec3& p, double u) {
     const double crests = glm::dot(p, glm::normalize(wave.direction)) / wave.length_m;
-    return swell(s) * std::sin(2.0 * std::numbers::pi * (wave.cycles * s - crests)) * wave.amplitude_m;
+    return swell(u) * std::sin(2.0 * std::numbers::pi * (wave.cycles * u - crests)) * wave.amplitude_m;
 }
 
-/// The formation at share s of its motion.
+/// The formation at share u of the hold's time.
 void moved(const Points& formation_m, const Vec3& middle_m, const HoldMotion& motion, const std::vector<bool>& still,
-           double s, Vec3* out) {
+           double u, Vec3* out) {
+    const double s = profile_value(ProfileKind::minimum_jerk, u);
     const double c = std::cos(s * motion.spin_rad), d = std::sin(s * motion.spin_rad);
     const double size = 1.0 + s * (motion.scale - 1.0);
     for (std::size_t i = 0; i < formation_m.size(); ++i) {
@@ -54,7 +55,7 @@ void moved(const Points& formation_m, const Vec3& middle_m, const HoldMotion& mo
         }
         const Vec3 arm = size * (formation_m[i] - middle_m);
         out[i] = middle_m + Vec3{c * arm.x - d * arm.y, d * arm.x + c * arm.y, arm.z} + s * motion.drift_m;
-        if (motion.wave && s > 0.0 && s < 1.0) out[i] += wave_at(*motion.wave, formation_m[i], s);
+        if (motion.wave && u > 0.0 && u < 1.0) out[i] += wave_at(*motion.wave, formation_m[i], u);
     }
 }
 
@@ -76,9 +77,8 @@ Lattice hold_lattice(const Points& formation_m, const HoldMotion& motion, const 
     const Vec3 middle_m = barycentre(formation_m, still);
     Points samples_m(knots * formation_m.size());
     for (std::size_t k = 0; k < knots; ++k) {
-        const double s =
-            profile_value(ProfileKind::minimum_jerk, static_cast<double>(k) / static_cast<double>(knots - 1));
-        moved(formation_m, middle_m, motion, still, s, samples_m.data() + k * formation_m.size());
+        const double u = static_cast<double>(k) / static_cast<double>(knots - 1);
+        moved(formation_m, middle_m, motion, still, u, samples_m.data() + k * formation_m.size());
     }
     const Points end_m = after_hold(formation_m, motion, still);
     std::copy(formation_m.begin(), formation_m.end(), samples_m.begin());

@@ -12,9 +12,9 @@ namespace aerogram::planner {
 [[nodiscard]] Points after_hold(const Points& formation_m, const HoldMotion& motion,
                                 const std::vector<bool>& still = {});
 
-/// The hold as one act at rest at both ends: spin, drift, scale and wave by one minimum-jerk clock; a wave swells over
-/// the first quarter of the clock and ebbs over the last. Ends are formation_m and after_hold's, exactly. Accuracy:
-/// within 1e-5 of a drone's distance from the axis of the true circle between knots.
+/// The hold as one act at rest at both ends: spin, drift and scale by one minimum-jerk clock; a wave runs at an even
+/// pace, swells over the first quarter of the time and ebbs over the last. Ends are formation_m and after_hold's,
+/// exactly. Accuracy: within 1e-5 of a drone's distance from the axis of the true circle between knots.
 [[nodiscard]] Lattice hold_lattice(const Points& formation_m, const HoldMotion& motion,
                                    const std::vector<bool>& still = {});
 

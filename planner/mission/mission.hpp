@@ -241,7 +241,7 @@ struct HoldMotion {
     double spin_rad = 0.0;  ///< about the vertical through the formation's barycentre, counter-clockwise from above
     Vec3 drift_m{};         ///< displacement over the hold
     double scale = 1.0;     ///< how many times as large it is at the end, about the barycentre
-    std::optional<Wave> wave;
+    std::optional<Wave> wave = std::nullopt;
 
     /// Whether it ends otherwise than it began; waves end flat.
     [[nodiscard]] bool displaces() const { return spin_rad != 0.0 || drift_m != Vec3{} || scale != 1.0; }
