@@ -1,10 +1,12 @@
 #include "planner/mesh/read_mesh.hpp"
 
 #include <algorithm>
+#include <fstream>
 #include <system_error>
 
 #include "geo/contract.hpp"
 #include "planner/mesh/child_process.hpp"
+#include "planner/mesh/ply_header.hpp"
 #include "planner/mesh/scene_assimp.hpp"
 #include "planner/mesh/wire.hpp"
 
@@ -24,6 +26,14 @@ std::string ending_of(const std::filesystem::path& file) {
     for (char& c : ending)
         if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
     return ending;
+}
+
+std::string front_of(const std::filesystem::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    std::string bytes(kLongestPlyHeader, '\0');
+    in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    bytes.resize(static_cast<std::size_t>(std::max<std::streamsize>(in.gcount(), 0)));
+    return bytes;
 }
 
 Result<const SceneClip*> clip_of(const Scene& scene, const MeshInstant& instant) {
@@ -88,11 +98,15 @@ Result<ReadMesh> read_mesh(const std::filesystem::path& file, const std::optiona
         return refused("is no mesh that can be read: " + std::string(kKinds));
     std::error_code error;
     if (!std::filesystem::is_regular_file(file, error)) return Error{ErrorCode::io, "cannot be read"};
-    if (std::filesystem::file_size(file, error) > kLargestMeshFile || error)
-        return Error{ErrorCode::io, "is larger than 256 MiB: must be smaller"};
+    const std::uintmax_t size = std::filesystem::file_size(file, error);
+    if (error) return Error{ErrorCode::io, "cannot be read"};
+    if (size > kLargestMeshFile) return Error{ErrorCode::io, "is larger than 256 MiB: must be smaller"};
+    if (ending == ".ply")
+        if (const std::string fault = fault_of_ply(front_of(file), size); !fault.empty()) return refused(fault);
+    // Damaged files send the library into endless loops: time is given by size, ten times what sound files need.
     ChildLimits limits;
-    limits.cpu_s = 120;
-    limits.wall_s = 900;
+    limits.cpu_s = 4 + static_cast<unsigned>(size >> 20U);
+    limits.wall_s = 30 * limits.cpu_s;
     const auto bytes = run_in_child(
         "the mesh reader", [&] { return packed_mesh(file, instant); }, limits, Run{});
     if (!bytes) return bytes.error();

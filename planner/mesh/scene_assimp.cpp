@@ -1,23 +1,24 @@
 #include "planner/mesh/scene_assimp.hpp"
 
+#include <assimp/BaseImporter.h>
+#include <assimp/GltfMaterial.h>
+#include <assimp/importerdesc.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
-#include <assimp/BaseImporter.h>
-#include <assimp/importerdesc.h>
 #include <algorithm>
+#include <assimp/DefaultLogger.hpp>
 #include <assimp/IOStream.hpp>
 #include <assimp/IOSystem.hpp>
 #include <assimp/Importer.hpp>
+#include <assimp/LogStream.hpp>
 #include <cmath>
 #include <cstring>
 #include <fstream>
 #include <iterator>
 #include <map>
-#include <set>
 #include <string_view>
 #include <system_error>
-#include <tuple>
 
 namespace aerogram::planner {
 namespace {
@@ -91,6 +92,18 @@ class FolderFiles : public Assimp::IOSystem {
     mutable std::string elsewhere_;
 };
 
+/// What the importer leaves out instead of failing.
+class Complaints : public Assimp::LogStream {
+  public:
+    explicit Complaints(bool& left_out) : left_out_(left_out) {}
+    void write(const char* message) override {
+        if (std::string_view(message).find("out-of-range indices") != std::string_view::npos) left_out_ = true;
+    }
+
+  private:
+    bool& left_out_;
+};
+
 /// Everything but the kinds we promise is taken out of the importer.
 void keep_only_our_kinds(Assimp::Importer& importer) {
     for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
@@ -139,10 +152,12 @@ void add_colors(ScenePart& part, const aiMesh& mesh, const aiScene& scene, Kind 
     aiString name;
     if (kind != Kind::other && mesh.mMaterialIndex < scene.mNumMaterials) {
         const aiMaterial& material = *scene.mMaterials[mesh.mMaterialIndex];
-        const bool own = material.Get(AI_MATKEY_NAME, name) != aiReturn_SUCCESS ||
-                         std::string_view(name.C_Str()) != AI_DEFAULT_MATERIAL_NAME;
+        const bool named = material.Get(AI_MATKEY_NAME, name) == aiReturn_SUCCESS;
         const bool said = kind == Kind::gltf ? material.Get(AI_MATKEY_BASE_COLOR, color) == aiReturn_SUCCESS
                                              : material.Get(AI_MATKEY_COLOR_DIFFUSE, color) == aiReturn_SUCCESS;
+        // What the importer makes up: an OBJ's material has its own name, a glTF's is white and has none.
+        const bool own = kind == Kind::obj ? std::string_view(name.C_Str()) != AI_DEFAULT_MATERIAL_NAME
+                                           : named || ours(color, linear) != base;
         if (own && said && (linear || !by_vertex)) {
             base = ours(color, linear);
             part.colored = true;
@@ -214,7 +229,7 @@ void tidy(std::vector<SceneKey<T>>& keys, SceneClip& clip) {
     std::erase_if(keys, [](const SceneKey<T>& k) { return !std::isfinite(k.time); });
     std::stable_sort(keys.begin(), keys.end(),
                      [](const SceneKey<T>& a, const SceneKey<T>& b) { return a.time < b.time; });
-    if (keys.empty()) return;
+    if (keys.size() < 2) return;  // a constant, which the importer dates 0
     clip.begin = std::min(clip.begin, keys.front().time);
     clip.end = std::max(clip.end, keys.back().time);
 }
@@ -282,7 +297,9 @@ Kind kind_of(const fs::path& file) {
     return ending == ".obj" ? Kind::obj : Kind::other;
 }
 
+/// The importer's message, fit for ours.
 std::string one_line(std::string text) {
+    if (text == "std::bad_alloc") return "it asks for more memory than there may be";
     std::replace_if(
         text.begin(), text.end(), [](char c) { return c >= 0 && c < ' '; }, ' ');
     return text.substr(0, 200);
@@ -293,6 +310,9 @@ std::string one_line(std::string text) {
 Result<Scene> read_scene(const fs::path& file) {
     try {
         Assimp::Importer importer;
+        bool left_out = false;
+        Assimp::DefaultLogger::create("", Assimp::Logger::NORMAL, 0);
+        Assimp::DefaultLogger::get()->attachStream(new Complaints(left_out), Assimp::Logger::Warn);
         auto* files = new FolderFiles(file);  // the importer's from here on
         importer.SetIOHandler(files);
         keep_only_our_kinds(importer);
@@ -302,6 +322,7 @@ Result<Scene> read_scene(const fs::path& file) {
                          "names \"" + one_line(files->elsewhere()) + "\": only files in its own folder are opened"};
         if (scene == nullptr || scene->mRootNode == nullptr)
             return Error{ErrorCode::invalid_input, "is damaged: " + one_line(importer.GetErrorString())};
+        if (left_out) return Error{ErrorCode::invalid_input, "is damaged: a triangle names a vertex that is not there"};
         return converted(*scene, kind_of(file));
     } catch (const Error& error) {
         return error;
