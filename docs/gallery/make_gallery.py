@@ -4,7 +4,7 @@
 
 PROGRAM is the built command. Writes docs/gallery/NAME.png, docs/gallery.md and README.md's gallery between its two marks.
 --check changes nothing: it draws the pictures of keyframes again and says which committed ones, and whether the page,
-are out of date (needs Pillow). Every other command of this file needs Python 3.11 alone.
+are out of date. Needs Python 3.11 and the Pillow of tests/requirements.txt.
 """
 import argparse
 import json
@@ -14,6 +14,8 @@ import sys
 import tempfile
 import tomllib
 from pathlib import Path
+
+from PIL import Image, ImageChops
 
 ROOT = Path(__file__).resolve().parents[2]
 LIST = ROOT / "docs/gallery/gallery.toml"
@@ -60,7 +62,15 @@ def aerogram(program, *words):
 
 
 def draw(program, entry, picture):
-    """One picture: a keyframe from three sides, or the show's front view at times after the keyframe stands."""
+    """One picture as the gallery keeps it: with a palette of 256 colours, a third of the bytes."""
+    take(program, entry, picture)
+    with Image.open(picture) as image:
+        small = image.convert("RGB").quantize(256, dither=Image.Dither.NONE)
+    small.save(picture, optimize=True)
+
+
+def take(program, entry, picture):
+    """A keyframe from three sides, or the show's front view at times after the keyframe stands."""
     if not mission_file(entry).is_file():
         raise Wrong(f"{entry['mission']}: there is no such mission")
     if "after_s" not in entry:
@@ -164,7 +174,6 @@ def write_if_new(file, content):
 
 def different(first, second):
     """How many pixels of two pictures differ visibly; all of them when the sizes do."""
-    from PIL import Image, ImageChops
     with Image.open(first) as a, Image.open(second) as b:
         if a.size != b.size:
             return max(a.width * a.height, b.width * b.height)

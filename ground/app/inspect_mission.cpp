@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <iostream>
 #include <sstream>
+#include <string_view>
 
 #include "export/decimal.hpp"
 #include "export/picture/formation_picture.hpp"
@@ -9,6 +10,7 @@
 #include "ground/app/commands.hpp"
 #include "ground/app/exit_status.hpp"
 #include "ground/app/words.hpp"
+#include "planner/carrier/ride.hpp"
 #include "planner/mission/mission_reader.hpp"
 
 namespace aerogram::ground {
@@ -17,7 +19,8 @@ namespace {
 using planner::Mission;
 
 constexpr std::size_t kMostNamed = 40;  ///< keyframes that an error lists
-constexpr std::size_t kNames = 17;      ///< width of the names of facts
+constexpr std::string_view kWhereRidesStart = "seen where the carrier's route starts, not turned with it";
+constexpr std::size_t kNames = 17;  ///< width of the names of facts
 
 std::string keyframe_names(const Mission& mission) {
     std::string names;
@@ -42,6 +45,13 @@ Result<std::vector<std::size_t>> keyframes_called(const Mission& mission, const 
                                                " has no such keyframe; it has " + keyframe_names(mission)};
 }
 
+/// Formations that ride along a route are looked at where it starts, as the mission writes them: not turned with it.
+Result<Mission> standing(Mission mission) {
+    if (!mission.carrier) return mission;
+    mission.carrier->turn = false;
+    return planner::placed_at_start(mission);
+}
+
 Result<std::vector<InspectedFormation>> build(const Mission& mission, const std::vector<std::size_t>& keyframes,
                                               const Run& run) {
     std::vector<InspectedFormation> built;
@@ -50,6 +60,7 @@ Result<std::vector<InspectedFormation>> build(const Mission& mission, const std:
         auto formation = planner::build_formation(mission, k, Run{run.stop, nullptr, run.threads});
         if (!formation) return formation.error();
         exporter::FormationFacts facts = exporter::facts_of(mission, k, *formation);
+        if (mission.carrier) facts.note += (facts.note.empty() ? "" : "; ") + std::string(kWhereRidesStart);
         built.push_back({std::move(facts), std::move(*formation)});
     }
     return built;
@@ -89,7 +100,8 @@ std::string keyframe_list(const Mission& mission) {
 }  // namespace
 
 int run_inspect_mission(const InspectCommand& command, const Session& session) {
-    const auto mission = planner::read_mission(command.file);
+    const auto written = planner::read_mission(command.file);
+    const auto mission = written ? standing(*written) : written.error();
     if (!mission) return report_error(mission.error(), session);
     if (!command.keyframe) {
         session.console.clear_line();
@@ -104,7 +116,7 @@ int run_inspect_mission(const InspectCommand& command, const Session& session) {
         const auto png = built->size() == 1 ? exporter::formation_picture(built->front().formation,
                                                                           built->front().facts, command.width_px)
                                             : clip_picture(*command.keyframe, *built, command.width_px);
-        if (const Status written = write_picture(command, png); !written) return report_error(written.error(), session);
+        if (const Status saved = write_picture(command, png); !saved) return report_error(saved.error(), session);
     }
     session.console.clear_line();
     if (session.json) {

@@ -77,6 +77,39 @@ TEST(Files, ErrorsNameTheFile) {
     EXPECT_EQ(write_file(scratch.path(), "x").error().code, ErrorCode::io);
 }
 
+TEST(ReplaceFile, CreatesFoldersReplacesAndLeavesNothingBeside) {
+    const fixed::ScratchFolder scratch;
+    const fs::path file = scratch.path() / "new" / "picture.png";
+    ASSERT_TRUE(replace_file(file, "first").ok());
+    ASSERT_TRUE(replace_file(file, std::string(100'000, 'x')).ok());
+    EXPECT_EQ(*read_file(file), std::string(100'000, 'x'));
+    EXPECT_EQ(std::distance(fs::directory_iterator(file.parent_path()), {}), 1);
+}
+
+TEST(ReplaceFile, ALinkStaysALink) {
+    const fixed::ScratchFolder scratch;
+    const fs::path file = scratch.path() / "real.png", link = scratch.path() / "link.png";
+    ASSERT_TRUE(write_file(file, "old").ok());
+    fs::create_symlink("real.png", link);
+    ASSERT_TRUE(replace_file(link, "new").ok());
+    EXPECT_TRUE(fs::is_symlink(link));
+    EXPECT_EQ(*read_file(file), "new");
+}
+
+TEST(ReplaceFile, WhatCannotBeReplacedStays) {
+    const fixed::ScratchFolder scratch;
+    const fs::path folder = scratch.path() / "folder";
+    fs::create_directory(folder);
+    ASSERT_TRUE(write_file(folder / "inside", "kept").ok());
+    const auto refused = replace_file(folder, "bytes");
+    ASSERT_FALSE(refused.ok());
+    EXPECT_EQ(refused.error().code, ErrorCode::io);
+    EXPECT_THAT(refused.error().message, HasSubstr(folder.string()));
+    EXPECT_EQ(*read_file(folder / "inside"), "kept");
+    EXPECT_EQ(std::distance(fs::directory_iterator(scratch.path()), {}), 1);
+    EXPECT_FALSE(replace_file("/proc/none/picture.png", "bytes").ok());
+}
+
 TEST(StagedFolder, CommitCreatesThenReplaces) {
     const fixed::ScratchFolder scratch;
     const fs::path show = scratch.path() / "out/show";
