@@ -15,7 +15,7 @@ constexpr double kMarkSize = 9.0;     ///< letters of the scales, in units
 constexpr double kMarksApart = 42.0;  ///< at least, in units
 constexpr double kFarthest = 0.45;    ///< how much of its light the farthest drone shows
 constexpr double kDarkest = 0.03;     ///< linear luminance
-constexpr double kGrowth = 0.35;      ///< of the longest side, that drones that do not shine may add
+constexpr double kGrowth = 0.35;      ///< of the longest side, that drones that do not shine may add to any
 
 Box box_of(std::span<const PictureDrone> drones, bool shining) {
     Box box;
@@ -113,8 +113,7 @@ Box framed(std::span<const PictureDrone> drones, double margin_m) {
     AEROGRAM_REQUIRE(!drones.empty());
     const bool any = std::ranges::any_of(drones, [](const PictureDrone& d) { return !d.spare && !is_dark(d.color); });
     const Box all = box_of(drones, false), shining = box_of(drones, any);
-    const double reach_m = longest(shining.size()) + 2.0 * margin_m;
-    const bool near = longest(all.size()) + 2.0 * margin_m <= (1.0 + kGrowth) * reach_m;
+    const bool near = longest(all.size() - shining.size()) <= kGrowth * (longest(shining.size()) + 2.0 * margin_m);
     Box box = near ? all : shining;
     const Vec3 margin(std::max(margin_m, 0.04 * longest(box.size())));
     box.low -= margin;

@@ -114,6 +114,17 @@ TEST(FormationPicture, SparesFarOffDoNotShrinkTheFormation) {
     EXPECT_FALSE(d.views.frame.holds(points_m.back()));
 }
 
+TEST(FormationPicture, SparesNearbyAreInThePictureHoweverThinItIs) {
+    Points points_m;
+    for (int i = 0; i < 20; ++i) points_m.push_back({2.5 * i, 0, 60});
+    points_m.push_back({20, 4, 55});
+    auto formation = formation_of(points_m);
+    formation.spare.back() = true;
+    EXPECT_TRUE(drawn(formation).views.frame.holds(points_m.back()));
+    formation.points_m.back().z = 3.0;  // as far below as the line is long
+    EXPECT_FALSE(drawn(formation).views.frame.holds(formation.points_m.back()));
+}
+
 TEST(FormationPicture, DarkDronesHaveARim) {
     auto formation = formation_of({{0, 0, 30}, {6, 0, 30}});
     formation.colors[0] = {};
