@@ -21,10 +21,13 @@ constexpr int kInstants = 21;
 constexpr double kStandsStill_m = 1e-6;
 
 /// The neighbours at either end of a leg.
-std::vector<Edge> neighbours(const Mission& mission, const Route& route, const Leg& leg) {
-    std::vector<Edge> edges = graph_keyframe(mission, route, leg.from_m).graph.edges;
-    const std::vector<Edge> there = graph_keyframe(mission, route, leg.to_m).graph.edges;
-    edges.insert(edges.end(), there.begin(), there.end());
+Result<std::vector<Edge>> neighbours(const Mission& mission, const Route& route, const Leg& leg, const Run& run) {
+    const auto from = graph_keyframe(mission, route, leg.from_m, run);
+    if (!from) return from.error();
+    const auto to = graph_keyframe(mission, route, leg.to_m, run);
+    if (!to) return to.error();
+    std::vector<Edge> edges = from->graph.edges;
+    edges.insert(edges.end(), to->graph.edges.begin(), to->graph.edges.end());
     const auto ends = [](const Edge& e) { return std::pair(e.a, e.b); };
     std::ranges::sort(edges, {}, ends);
     const auto twice = std::ranges::unique(edges, {}, ends);
@@ -131,10 +134,13 @@ const char* name_of(Objective objective) {
 
 }  // namespace
 
-Merits merits_of(const Mission& mission, const Route& route, const Leg& leg, const LegMotion& motion) {
+Result<Merits> merits_of(const Mission& mission, const Route& route, const Leg& leg, const LegMotion& motion,
+                         const Run& run) {
+    const auto edges = neighbours(mission, route, leg, run);
+    if (!edges) return edges.error();
     const Act act = act_of(leg, motion);
-    return {seconds_from_ms(motion.shortest.duration_ms), motion.report.path_ratio,
-            edge_distortion(neighbours(mission, route, leg), act, leg), dimensionless_jerk(act, leg)};
+    return Merits{seconds_from_ms(motion.shortest.duration_ms), motion.report.path_ratio,
+                  edge_distortion(*edges, act, leg), dimensionless_jerk(act, leg)};
 }
 
 Result<LegMotion> choose_motion(const Mission& mission, const Route& route, const Leg& leg, const Run& run) {
@@ -152,13 +158,14 @@ Result<LegMotion> choose_motion(const Mission& mission, const Route& route, cons
         if (!motion) return motion.error();
         auto certified = is_certified(mission, leg, *motion, run);
         if (!certified) return certified.error();
-        const Merits merits = merits_of(mission, route, leg, *motion);
-        reason += (method == kCandidates[0] ? "" : "; ") + told(method, merits, *certified);
-        const bool wins = !best || (*certified && (!best_certified || better(mission.objective, merits, best_merits)));
+        const auto merits = merits_of(mission, route, leg, *motion, run);
+        if (!merits) return merits.error();
+        reason += (method == kCandidates[0] ? "" : "; ") + told(method, *merits, *certified);
+        const bool wins = !best || (*certified && (!best_certified || better(mission.objective, *merits, best_merits)));
         if (!wins) continue;
         best_certified = *certified;
         best = std::move(*motion);
-        best_merits = merits;
+        best_merits = *merits;
         best_method = method;
     }
     best->report.method = std::string("auto: ") + name_of(best_method);

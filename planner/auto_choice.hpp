@@ -11,7 +11,9 @@ struct Merits {
                                    ///< linearly from the source's length to the target's; union of both graphs
     double jerk = 0.0;  ///< mean over drones of ∫|jerk|² dt · T⁵ / L² (DESIGN.md 12), L the straight way
 };
-[[nodiscard]] Merits merits_of(const Mission& mission, const Route& route, const Leg& leg, const LegMotion& motion);
+/// Errors: those of graph_keyframe.
+Result<Merits> merits_of(const Mission& mission, const Route& route, const Leg& leg, const LegMotion& motion,
+                         const Run& run);
 
 /// method = "auto": plans the leg by straight, rigid and spectral, certifies each, and keeps of those that hold every
 /// limit the best by the mission's objective: shortest = duration, then path; together = edge distortion; smooth =

@@ -63,10 +63,17 @@ double path_ratio(const Motion& motion) {
 }
 
 Result<Flow> flow_of(const Mission& mission, const Route& route, const Leg& leg, const Run& run) {
-    std::vector<SpectralKeyframe> keyframes{graph_keyframe(mission, route, leg.from_m)};
+    std::vector<SpectralKeyframe> keyframes;
+    const auto add = [&](const Points& by_drone_m) -> Status {
+        auto keyframe = graph_keyframe(mission, route, by_drone_m, run);
+        if (!keyframe) return keyframe.error();
+        keyframes.push_back(std::move(*keyframe));
+        return Done{};
+    };
+    if (auto done = add(leg.from_m); !done) return done.error();
     std::vector<FlowLeg> legs;
     for (std::size_t k = leg.first; k <= leg.last; ++k) {
-        keyframes.push_back(graph_keyframe(mission, route, route.stops[k].by_drone_m));
+        if (auto done = add(route.stops[k].by_drone_m); !done) return done.error();
         const Arrive& how = mission.keyframes[k].arrive;
         legs.push_back({how.flow, how.duration_s});
     }

@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "planner/adjacency/adjacency.hpp"
+#include "planner/adjacency/obstacle_walls.hpp"
 #include "planner/motion/profile.hpp"
 #include "planner/steering/steer.hpp"
 #include "planner/transition/hierarchy.hpp"
@@ -100,13 +101,18 @@ Result<Interpolation> steered(const Mission& mission, const Route& route, const 
 
 }  // namespace
 
-SpectralKeyframe graph_keyframe(const Mission& mission, const Route& route, const Points& by_drone_m,
-                                std::span<const ObstacleVertex> obstacles) {
+Result<SpectralKeyframe> graph_keyframe(const Mission& mission, const Route& route, const Points& by_drone_m,
+                                        const Run& run, std::span<const ObstacleVertex> obstacles) {
     Points all_m = by_drone_m, fixed_m;
     for (const ObstacleVertex& obstacle : obstacles) fixed_m.push_back(obstacle.at_m);
     all_m.insert(all_m.end(), fixed_m.begin(), fixed_m.end());
-    const AdjacencyGraph graph = obstacle_adjacency(by_drone_m, obstacles);
-    return {by_drone_m, edited_adjacency(graph, all_m, route.groups, mission.adjacency), fixed_m};
+    const auto solids = mission.carrier ? std::vector<geo::Obstacle>{} : mission.airspace.obstacles;
+    const auto graph = adjacency_around(by_drone_m, obstacles, solids, run);
+    if (!graph) {
+        if (graph.error().code == ErrorCode::stopped) return graph.error();
+        return Error{graph.error().code, "neighbours around the obstacles: " + graph.error().message};
+    }
+    return SpectralKeyframe{by_drone_m, edited_adjacency(*graph, all_m, route.groups, mission.adjacency), fixed_m};
 }
 
 Result<LegShape> LegShape::of(const Mission& mission, const Route& route, const Leg& leg, Method method,
@@ -129,8 +135,11 @@ Result<LegShape> LegShape::of(const Mission& mission, const Route& route, const 
     const auto obstacles =
         mission.carrier ? std::vector<ObstacleVertex>{}
                         : obstacle_vertices(mission.airspace.obstacles, mission.obstacle_weights, leg.from_m, leg.to_m);
-    auto drawn = hierarchical_interpolation(graph_keyframe(mission, route, leg.from_m, obstacles),
-                                            graph_keyframe(mission, route, leg.to_m, obstacles), *tree, run);
+    const auto from = graph_keyframe(mission, route, leg.from_m, run, obstacles);
+    if (!from) return from.error();
+    const auto to = graph_keyframe(mission, route, leg.to_m, run, obstacles);
+    if (!to) return to.error();
+    auto drawn = hierarchical_interpolation(*from, *to, *tree, run);
     if (!drawn) return drawn.error();
     shape.interpolation_ = std::move(*drawn);
     return shape;

@@ -17,7 +17,7 @@ namespace aerogram::planner {
 class LegShape {
   public:
     /// @param method  straight, spectral, rigid or steered; the leg's groups move in their own ways inside it.
-    /// Errors: invalid_input when groups of the arrival overlap; stopped.
+    /// Errors: invalid_input when groups of the arrival overlap; those of graph_keyframe; stopped.
     static Result<LegShape> of(const Mission& mission, const Route& route, const Leg& leg, Method method,
                                const Run& run);
 
@@ -36,7 +36,10 @@ class LegShape {
 };
 
 /// A place as transitions see it: where each drone is, and who its neighbours are there after the designer's edits.
-[[nodiscard]] SpectralKeyframe graph_keyframe(const Mission& mission, const Route& route, const Points& by_drone_m,
-                                              std::span<const ObstacleVertex> obstacles = {});
+/// Nobody is a neighbour through an obstacle of the airspace (obstacle_walls.hpp), unless an edit joins them.
+/// @param obstacles  those that are vertices too. On a carrier there are none: they stand in the ground frame.
+/// Errors: those of adjacency_around.
+Result<SpectralKeyframe> graph_keyframe(const Mission& mission, const Route& route, const Points& by_drone_m,
+                                        const Run& run, std::span<const ObstacleVertex> obstacles = {});
 
 }  // namespace aerogram::planner

@@ -45,7 +45,7 @@ std::vector<ObstacleVertex> obstacle_vertices(const std::vector<geo::Obstacle>& 
         if (weights[j] == 0.0) continue;
         const geo::Obstacle& o = obstacles[j];
         const Vec2 axis = axis_of(o);
-        out.push_back({{axis.x, axis.y, std::clamp(height_m, o.base_m, o.base_m + o.height_m)}, weights[j]});
+        out.push_back({{axis.x, axis.y, std::clamp(height_m, o.base_m, o.base_m + o.height_m)}, weights[j], j});
     }
     return out;
 }

@@ -11,7 +11,8 @@ namespace aerogram::planner {
 /// An obstacle as a vertex of the graph: where it counts as standing, and how firmly drones keep their place to it.
 struct ObstacleVertex {
     Vec3 at_m{};
-    double weight = 1.0;  ///< > 0, multiplies 1/distance of its edges
+    double weight = 1.0;       ///< > 0, multiplies 1/distance of its edges
+    std::size_t obstacle = 0;  ///< its index among all obstacles
 };
 
 /// Where obstacles count as standing on the way between two keyframes: on their upright axis (a prism's: the barycentre
