@@ -273,8 +273,8 @@ double mean_distance(const Cloud& cloud, const Points& points) {
     AEROGRAM_REQUIRE(!points.empty());
     const SpaceGrid grid(points, bucket_side(cloud, points.size()));
     double sum = 0.0;
-    for (const auto& piece : cloud.pieces) sum += piece.size * glm::distance(piece.at, points[grid.nearest(piece.at)]);
-    return sum / cloud.size;
+    for (const auto& piece : cloud.pieces) sum += piece.mass * glm::distance(piece.at, points[grid.nearest(piece.at)]);
+    return sum / cloud.mass;
 }
 
 }  // namespace aerogram::planner

@@ -44,7 +44,7 @@ using Settle = std::function<Vec3(std::size_t i, const Vec3& centre, const Cloud
 void relax(Points& sites, std::size_t fixed, const Cloud& cloud, std::size_t rounds, const Settle& settle,
            const Run& run);
 
-/// The mean distance of all places from the nearest point, by size. @param points  at least one.
+/// The mean distance of all places from the nearest point, by mass. @param points  at least one.
 [[nodiscard]] double mean_distance(const Cloud& cloud, const Points& points);
 
 }  // namespace aerogram::planner

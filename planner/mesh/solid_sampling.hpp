@@ -31,7 +31,7 @@ namespace aerogram::planner {
 [[nodiscard]] bool has_sharp_edges(const TriangleMesh& mesh);
 
 /// Paper 003, equation 4, as a mean: how far a place of the surface or volume is from the nearest drone.
-/// @param points  at least one. @param density  places where it is 0 do not count.
+/// @param points  at least one. @param density  how much places count.
 [[nodiscard]] double mean_distance(const TriangleMesh& mesh, const Points& points, const DensityField& density = {});
 [[nodiscard]] double mean_distance(const TetrahedralMesh& inside, const Points& points,
                                    const DensityField& density = {});
