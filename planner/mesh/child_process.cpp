@@ -19,6 +19,11 @@
 namespace aerogram::planner {
 namespace {
 
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer) && !defined(__SANITIZE_ADDRESS__)
+#define __SANITIZE_ADDRESS__ 1
+#endif
+#endif
 #if defined(__SANITIZE_ADDRESS__)
 constexpr bool kSanitized = true;  // its shadow maps terabytes, so no limit on mapped memory can be kept
 #else
