@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 
 #include "planner/drawing/region_clip.hpp"
@@ -54,10 +55,29 @@ Result<Figure> as_area(const PartRef& ref, const SvgSource& source, const Ink& i
     return figure;
 }
 
+/// Lines of one colour become one drawing, so that crossings are seen and no two drones stand at one.
+void join_lines(std::vector<InkLayer>& layers) {
+    std::map<Rgb, std::size_t> first;
+    for (std::size_t i = 0; i < layers.size(); ++i) {
+        InkLayer& layer = layers[i];
+        if (layer.lines.lines.empty()) continue;
+        const auto [found, is_new] = first.emplace(layer.color, i);
+        if (is_new) continue;
+        InkLayer& joined = layers[found->second];
+        const auto move = [](auto& from, auto& to) { to.insert(to.end(), from.begin(), from.end()); };
+        move(layer.lines.lines, joined.lines.lines);
+        move(layer.lines.closed, joined.lines.closed);
+        move(layer.area.contours, joined.area.contours);
+        layer.area.contours.clear();
+    }
+    std::erase_if(layers, [](const InkLayer& layer) { return layer.area.contours.empty(); });
+}
+
 /// Lines as lines and areas as areas, each shape by drones of its own colour.
 Result<Figure> as_drawn(const PartRef& ref, const SvgSource& source, const Ink& ink, const std::string& key,
                         const Run& run) {
-    const Ink seen = visible(ink);
+    Ink seen = visible(ink);
+    join_lines(seen.layers);
     if (seen.layers.empty()) return ref.error(key + "shows nothing that is lit");
     const Bounds box = bounds_of(seen.layers);
     const auto layers =

@@ -72,13 +72,14 @@ std::size_t points_of(const Region& region) {
     return count;
 }
 
-/// The areas of the layers above `below` that reach into its box, one after another.
+/// The areas of the layers above `below` that reach into its box, one after another. Lines do not hide lines: where
+/// they cross, a drone can belong to both.
 Region above(const std::vector<InkLayer>& layers, const std::vector<Bounds>& boxes, std::size_t below) {
     Region out;
     for (std::size_t j = below + 1; j < layers.size(); ++j) {
         const bool apart = boxes[j].low.x >= boxes[below].high.x || boxes[j].high.x <= boxes[below].low.x ||
                            boxes[j].low.y >= boxes[below].high.y || boxes[j].high.y <= boxes[below].low.y;
-        if (apart) continue;
+        if (apart || (!layers[j].lines.lines.empty() && !layers[below].lines.lines.empty())) continue;
         const auto& contours = layers[j].area.contours;
         out.contours.insert(out.contours.end(), contours.begin(), contours.end());
     }

@@ -32,8 +32,8 @@ struct Ink {
 /// A fill's own stroke widens it and has its colour, unless the fill is dark.
 [[nodiscard]] Ink ink_of(const Drawing& drawing);
 
-/// The layers without what later ones hide: areas disjoint, lines cut; dark layers are gone. Layers keep their order,
-/// empty ones are gone. Where that would cost too much (more than 20,000 layers, or too many of them over one
+/// The layers without what later ones hide: areas disjoint, lines cut by areas; dark layers are gone. Layers keep their
+/// order, empty ones are gone. Where that would cost too much (more than 20,000 layers, or too many of them over one
 /// another) nothing is hidden, and the note says so.
 [[nodiscard]] Ink visible(const Ink& ink);
 

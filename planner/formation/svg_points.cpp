@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "geo/contract.hpp"
+#include "geo/units.hpp"
 #include "planner/drawing/region_clip.hpp"
 #include "planner/formation/svg_lines.hpp"
 #include "planner/sampling/lloyd.hpp"
@@ -19,7 +20,9 @@ constexpr std::size_t kCellsPerPoint = 64, kCellsAtLeast = 2'000, kCellsAtMost =
 constexpr std::size_t kLloydRounds = 20, kPushRounds = 240;
 constexpr double kHexagon = 0.8660254037844386;  ///< area of a lattice's cell at spacing 1
 constexpr double kReached = 0.86;                ///< share of the triangular lattice's density that points reach
-constexpr double kApart = 0.9;                   ///< outlines of different layers, spacings
+constexpr double kLinesApart[] = {0.85, 0.6, 0.4, 0.2, 0.1};  ///< lines of different layers, spacings
+constexpr double kLeastLeft = 0.6;                            ///< of a line's length
+constexpr double kApart = 0.9;                                ///< outlines of different layers, spacings
 
 bool on_lines(const InkLayer& layer) {
     return !layer.lines.lines.empty();
@@ -176,27 +179,55 @@ std::vector<Vec2> filled(const Region& area, std::size_t count, std::vector<Vec2
     return {sites.begin() + strangers, sites.end()};
 }
 
-/// Pushes points of areas apart; those of lines and outlines stay.
+/// Lines without what is near to points that stand already: as many spacings around them as leave enough of the lines.
+Chords clear_of(const Chords& lines, const std::vector<Vec2>& there, double spacing) {
+    constexpr std::size_t kSides = 16;
+    const Bounds box = bounds_of(Region{lines.lines});
+    for (const double reach : kLinesApart) {
+        Region discs;
+        for (const Vec2& p : there) {
+            if (glm::distance(p, glm::clamp(p, box.low, box.high)) > spacing) continue;
+            Contour disc;
+            for (std::size_t k = 0; k < kSides; ++k) {
+                const double angle = 2.0 * kPi * static_cast<double>(k) / static_cast<double>(kSides);
+                disc.push_back(p + reach * spacing * Vec2(std::cos(angle), std::sin(angle)));
+            }
+            discs.contours.push_back(std::move(disc));
+        }
+        if (discs.contours.empty()) return lines;
+        auto left = clipped(lines, discs, Side::outside);
+        if (left && length_of(*left) > kLeastLeft * length_of(lines)) return std::move(*left);
+    }
+    return lines;
+}
+
+/// Pushes points of areas apart; those of lines stay, and those of outlines too as long as that helps.
 void push(std::vector<std::vector<Vec2>>& points, const std::vector<std::size_t>& standing,
           const std::vector<InkLayer>& layers, double spacing, const Run& run) {
-    std::vector<Vec2> all;
+    std::vector<Vec2*> order;  // lines, then outlines, then insides
+    const auto take = [&](bool lines, bool stand) {
+        for (std::size_t i = 0; i < layers.size(); ++i) {
+            if (on_lines(layers[i]) != lines) continue;
+            for (std::size_t k = 0; k < points[i].size(); ++k) {
+                if ((k < standing[i]) == stand) order.push_back(&points[i][k]);
+            }
+        }
+        return order.size();
+    };
+    const std::size_t lines = take(true, true), fixed = take(false, true);
+    if (take(false, false) == lines) return;
     Region areas;
     for (std::size_t i = 0; i < layers.size(); ++i) {
-        all.insert(all.end(), points[i].begin(), points[i].begin() + static_cast<std::ptrdiff_t>(standing[i]));
         if (on_lines(layers[i]) || points[i].empty()) continue;
         areas.contours.insert(areas.contours.end(), layers[i].area.contours.begin(), layers[i].area.contours.end());
     }
-    const std::size_t fixed = all.size();
-    for (std::size_t i = 0; i < layers.size(); ++i) {
-        all.insert(all.end(), points[i].begin() + static_cast<std::ptrdiff_t>(standing[i]), points[i].end());
-    }
-    if (all.size() == fixed) return;
-    const DensityRaster raster = raster_of(areas, all.size(), {});
-    push_apart(all, fixed, raster, spacing, kPushRounds, run);
-    std::size_t next = fixed;
-    for (std::size_t i = 0; i < layers.size(); ++i) {
-        for (std::size_t k = standing[i]; k < points[i].size(); ++k) points[i][k] = all[next++];
-    }
+    const DensityRaster raster = raster_of(areas, order.size(), {});
+    const double ideal = spacing / std::sqrt(kReached);
+    std::vector<Vec2> all;
+    for (const Vec2* p : order) all.push_back(*p);
+    push_apart(all, fixed, raster, ideal, kPushRounds, run);
+    push_apart(all, lines, raster, ideal, kPushRounds, run);
+    for (std::size_t k = 0; k < all.size(); ++k) *order[k] = all[k];
 }
 
 }  // namespace
@@ -223,9 +254,9 @@ std::vector<std::vector<Vec2>> layer_points(const std::vector<InkLayer>& layers,
     std::vector<std::vector<Vec2>> out(layers.size());
     std::vector<std::size_t> standing(layers.size(), 0);
     std::vector<Vec2> there;  // on lines and outlines
-    for (std::size_t i = 0; i < layers.size(); ++i) {
-        if (!on_lines(layers[i])) continue;
-        out[i] = line_points(layers[i].lines, count[i], spacing);
+    for (std::size_t i = layers.size(); i-- > 0;) {
+        if (!on_lines(layers[i]) || count[i] == 0) continue;
+        out[i] = line_points(clear_of(layers[i].lines, there, spacing), count[i], spacing);
         standing[i] = count[i];
         there.insert(there.end(), out[i].begin(), out[i].end());
     }
