@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kLargestRaster = 16'000'000.0;  ///< cells
 constexpr int kSamplesAcross = 4;                ///< of a cell that is wider than a pixel
-constexpr double kPixelsInside = 2.0;            ///< a contour's colours are met this far inside
+constexpr double kPixelsInside = 3.0;            ///< a contour's colours are met this far inside
 
 using Seen = std::shared_ptr<const SeenPicture>;
 
@@ -110,7 +110,7 @@ Result<Figure> contoured(const PartRef& ref, const ImageSource& source, const Se
         colors.reserve(natural.size());
         for (const Vec3& p : natural) {
             const Vec2 place(p.x + middle.x, height - (p.z + middle.y));
-            colors.push_back(seen->light_around(seen->inwards(place, inside), 0.5 * inside));
+            colors.push_back(seen->light_around(seen->inwards(place, inside), inside / 3.0));
         }
         return in_palette(std::move(colors), palette);
     };

@@ -43,10 +43,14 @@ Rgb SeenPicture::light_around(const Vec2& place, double reach) const {
 }
 
 Vec2 SeenPicture::inwards(const Vec2& place, double distance) const {
-    Vec2 towards{};
-    for_each_seen(*this, place, 2.0 * distance, [&](std::size_t, const Vec2& middle) { towards += middle - place; });
-    const double length = glm::length(towards);
-    return length > 0.0 ? place + towards * (distance / length) : place;
+    Vec2 sum{};
+    double count = 0.0;
+    // Of a half plane in a square window the middle is half the window's half width inside.
+    for_each_seen(*this, place, 2.0 * distance, [&](std::size_t, const Vec2& middle) {
+        sum += middle;
+        count += 1.0;
+    });
+    return count > 0.0 ? sum / count : place;
 }
 
 Result<std::shared_ptr<const SeenPicture>> seen_picture(const ImageSource& source) {

@@ -28,7 +28,7 @@ struct SeenPicture {
     [[nodiscard]] std::optional<std::size_t> pixel_at(const Vec2& place) const;
     /// The mean light of the seen pixels in a window of half width `reach` > 0; it grows until it holds one.
     [[nodiscard]] Rgb light_around(const Vec2& place, double reach) const;
-    /// `place` moved by `distance` towards what is seen around it.
+    /// The middle of what is seen around a place on the rim: about `distance` inside, less where that is thin.
     [[nodiscard]] Vec2 inwards(const Vec2& place, double distance) const;
 };
 
