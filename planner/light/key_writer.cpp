@@ -65,8 +65,8 @@ void KeyWriter::begin(const LightPiece& piece) {
         keys_.pop_back();
     open_ = true;
     run_ = piece;
-    std::fill(lowest_, lowest_ + 3, -std::numeric_limits<double>::infinity());
-    std::fill(highest_, highest_ + 3, std::numeric_limits<double>::infinity());
+    lowest_.fill(-std::numeric_limits<double>::infinity());
+    highest_.fill(std::numeric_limits<double>::infinity());
     narrow();
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <vector>
 
 #include "geo/tracks.hpp"
@@ -35,8 +36,8 @@ class KeyWriter {
     void put(LightKey key);
 
     bool open_ = false;
-    LightPiece run_;                           ///< what is being joined
-    double lowest_[3] = {}, highest_[3] = {};  ///< slopes a ms that are near enough to everything in it
+    LightPiece run_;                              ///< what is being joined
+    std::array<double, 3> lowest_{}, highest_{};  ///< slopes a ms that are near enough to everything in it
     std::vector<LightKey> keys_;
 };
 
