@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "geo/contract.hpp"
 #include "planner/sampling/lloyd.hpp"
@@ -12,7 +13,7 @@ namespace aerogram::planner {
 namespace {
 
 constexpr std::size_t kCellsPerPoint = 64, kCellsAtLeast = 40'000, kCellsAtMost = 1'300'000;
-constexpr std::size_t kLloydRounds = 20, kPushRounds = 240, kPushRoundsAtMost = 1000;
+constexpr std::size_t kLloydRounds = 20, kJumpingRounds = 7, kPushRounds = 240, kPushRoundsAtMost = 1000;
 constexpr std::size_t kPushWork = 1'000'000;     ///< points x rounds that may be spent when there are few points
 constexpr double kHexagon = 0.8660254037844386;  ///< area of a lattice's cell at spacing 1
 constexpr double kMostCellsByDensity = 3e6;      ///< where it gathers in a small part of the region
@@ -74,6 +75,14 @@ void fill_up(std::vector<Vec2>& points, std::size_t count, const DensityRaster& 
     push_apart(points, fixed, raster, std::sqrt(area / (kHexagon * static_cast<double>(count))), rounds, run);
 }
 
+/// Lloyd's rounds that leave as many sites in a place as its mass asks for.
+void relax_by_density(std::vector<Vec2>& sites, std::size_t fixed, DensityRaster density, const Run& run) {
+    relax(sites, fixed, density, kJumpingRounds, run);
+    // Where the rounds come to rest, sites are as dense as the square root of the mass (Gersho 1979, in the plane).
+    for (float& m : density.mass) m *= m;
+    for (std::size_t round = kJumpingRounds; round < kLloydRounds; ++round) relax(sites, fixed, density, 1, run);
+}
+
 /// The region's cells, each with as much of the density as is inside.
 DensityRaster weighed(const Region& region, std::size_t cells, const std::function<double(const Vec2&)>& density) {
     DensityRaster raster = rasterised(region, cells);
@@ -132,7 +141,7 @@ std::vector<Vec2> sample_region(const Region& region, std::size_t count, std::op
     if (fixed == count) return points;
     const std::vector<Vec2> inside = spread_by_mass(raster, count - fixed);
     points.insert(points.end(), inside.begin(), inside.end());
-    relax(points, fixed, raster, kLloydRounds, run);
+    relax_by_density(points, fixed, std::move(raster), run);
     return points;
 }
 
@@ -146,7 +155,7 @@ std::vector<Vec2> sample_evenly(const DensityRaster& area, std::size_t count, co
 std::vector<Vec2> sample_density(const DensityRaster& density, std::size_t count, const Run& run) {
     AEROGRAM_REQUIRE(count >= 1);
     std::vector<Vec2> points = spread_by_mass(density, count);
-    relax(points, 0, density, kLloydRounds, run);
+    relax_by_density(points, 0, density, run);
     return points;
 }
 

@@ -1,4 +1,5 @@
-// Formations: letters, a sphere, a helix and a grid. Each run checks the number of slots and their smallest spacing.
+// Formations: letters, a sphere, a helix, a grid, and areas (a star of 10,000 is to take at most 2 s). Each run checks
+// the number of slots and their smallest spacing.
 #include <benchmark/benchmark.h>
 
 #include "planner/formation/formation.hpp"
@@ -39,10 +40,21 @@ void formation_of_grid(benchmark::State& state) {
     measure(state, shape(ShapeKind::grid));
 }
 
+void formation_of_star(benchmark::State& state) {
+    measure(state, shape(ShapeKind::star));
+}
+void formation_of_disc_outline(benchmark::State& state) {
+    ShapeSource source = shape(ShapeKind::disc);
+    source.area_style = AreaStyle::outline;
+    measure(state, source);
+}
+
 BENCHMARK(formation_of_text)->Arg(10)->Arg(60)->Arg(300)->Unit(benchmark::kMillisecond);
 BENCHMARK(formation_of_sphere)->Arg(10)->Arg(60)->Arg(300)->Unit(benchmark::kMillisecond);
 BENCHMARK(formation_of_helix)->Arg(10)->Arg(60)->Arg(300)->Unit(benchmark::kMillisecond);
 BENCHMARK(formation_of_grid)->Arg(10)->Arg(60)->Arg(300)->Unit(benchmark::kMillisecond);
+BENCHMARK(formation_of_star)->Arg(300)->Arg(10'000)->Unit(benchmark::kMillisecond);
+BENCHMARK(formation_of_disc_outline)->Arg(300)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace aerogram::planner

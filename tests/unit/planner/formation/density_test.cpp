@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "planner/formation/area_figure.hpp"
@@ -89,20 +90,25 @@ TEST(AreaFigure, Property1WithoutADensityAFillIsTheSameToTheBit) {
 }
 
 TEST(AreaFigure, ABrushGathersDrones) {
-    const Points even = built(square(400, {})).points_m;
-    const Points brushed = built(square(400, {{}, {{{8, 8}, 8, 4}}}, flat(60, 60))).points_m;
-    EXPECT_GT(inside(brushed, {8, 8}, 4), 2 * inside(even, {8 / 1.5, 8 / 1.5}, 4 / 1.5));
+    const Points even = built(square(400, {}, flat(100, 100))).points_m;
+    const Points brushed = built(square(400, {{}, {{{20, 20}, 25, 4}}}, flat(100, 100))).points_m;
+    EXPECT_GT(inside(brushed, {20, 20}, 12), 2 * inside(even, {20, 20}, 12));
     ASSERT_EQ(brushed.size(), 400U);
 }
 
-TEST(AreaFigure, APicturesBlackHasNobodyAndTwiceAsBrightHasTwiceAsMany) {
-    const Formation formation = built(square(1000, {kQuarters, {}}, flat(200, 200)));
-    std::size_t red = 0, green = 0, blue = 0, black = 0;
-    for (const Vec3& p : formation.points_m) (p.x < 0 ? (p.z > 0 ? red : blue) : (p.z > 0 ? green : black))++;
-    EXPECT_LE(black, 10U);  // the seam between pixels
-    EXPECT_NEAR(static_cast<double>(green), 715.2, 25.0);
-    EXPECT_NEAR(static_cast<double>(red), 212.6, 25.0);
-    EXPECT_NEAR(static_cast<double>(blue), 72.2, 15.0);
+TEST(AreaFigure, QuartersHoldWhatTheirShareOfTheDensityAsksFor) {
+    const Part part = square(1000, {kQuarters, {}}, flat(200, 200));
+    const DensityField field = field_of(part, {1, 0, 1});
+    const auto quarter = [](const Vec3& p) { return (p.x < 0 ? 0U : 1U) + (p.z > 0 ? 0U : 2U); };
+    std::array<double, 4> mass{}, drones{};
+    for (int i = 0; i < 256 * 256; ++i) {
+        const Vec3 p((i % 256 + 0.5) / 256 - 0.5, 0, (i / 256 + 0.5) / 256 - 0.5);
+        mass.at(quarter(p)) += field(p);
+    }
+    for (const Vec3& p : built(part).points_m) drones.at(quarter(p)) += 1.0;
+    const double total = mass[0] + mass[1] + mass[2] + mass[3];
+    for (std::size_t q = 0; q < 4; ++q) EXPECT_NEAR(drones.at(q), 1000 * mass.at(q) / total, 15.0) << q;
+    EXPECT_LT(drones[3], 30.0);  // black but for half a pixel at its rim
 }
 
 TEST(AreaFigure, AskedOutlineStandsWhereTheDensityIsNotZero) {
