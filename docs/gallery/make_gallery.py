@@ -183,16 +183,18 @@ def different(first, second):
 
 
 def make(program, entries, scratch):
-    """Draws everything; returns what went wrong, one text a picture."""
-    wrong = []
+    """Draws everything; returns the entries that are drawn, and what went wrong with the others, one text each."""
+    drawn, wrong = [], []
     for entry in entries:
         fresh = scratch / f"{entry['name']}.png"
         try:
+            made_by(entry)
             draw(program, entry, fresh)
             write_if_new(PICTURES / fresh.name, fresh.read_bytes())
+            drawn.append(entry)
         except Wrong as error:
             wrong.append(f"{entry['name']}: {error}")
-    return wrong
+    return drawn, wrong
 
 
 def check(program, entries, scratch):
@@ -223,17 +225,21 @@ def main():
     try:
         entries = read_list()
         chosen = [entry for entry in entries if not options.only or entry["name"] in options.only]
+        program = options.program.resolve()
         with tempfile.TemporaryDirectory() as scratch:
-            wrong = (check if options.check else make)(options.program.resolve(), chosen, Path(scratch))
+            if options.check:
+                wrong = check(program, chosen, Path(scratch))
+            else:
+                drawn, wrong = make(program, chosen, Path(scratch))
         if options.check:
             wrong += [] if PAGE.is_file() and PAGE.read_text(encoding="utf-8") == page(entries) else ["docs/gallery.md"]
             wrong += [] if README.read_text(encoding="utf-8") == readme(entries) else ["README.md's gallery"]
             wrong += [f"{p.name}: is in no entry" for p in leftovers(entries)]
-        elif not wrong and not options.only:
+        elif not options.only:
             for picture in leftovers(entries):
                 picture.unlink()
-            write_if_new(PAGE, page(entries).encode())
-            write_if_new(README, readme(entries).encode())
+            write_if_new(PAGE, page(drawn).encode())
+            write_if_new(README, readme(drawn).encode())
         size = sum(p.stat().st_size for p in PICTURES.glob("*.png"))
         if size > LARGEST_FOLDER:
             wrong.append(f"the pictures have {size} bytes together, more than {LARGEST_FOLDER}")

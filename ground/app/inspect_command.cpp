@@ -27,7 +27,8 @@ Result<RecordedShow> read_any(const std::filesystem::path& file) {
     if (format == nullptr) {
         std::string known;
         for (const auto& each : exporter::formats()) known += (known.empty() ? "" : ", ") + std::string(each.name);
-        return Error{ErrorCode::invalid_input, file.string() + ": not a format we read (" + known + ")"};
+        return Error{ErrorCode::invalid_input,
+                     file.string() + ": not a format we read (" + known + "), nor a mission's file (.toml)"};
     }
     const std::array<exporter::FileBytes, 1> files{{{file.filename().string(), std::move(*bytes)}}};
     return format->read(files);
