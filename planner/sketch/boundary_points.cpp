@@ -2,21 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <queue>
 #include <utility>
 
 #include "geo/contract.hpp"
-#include "planner/sampling/site_grid.hpp"
 
 namespace aerogram::planner {
 namespace {
 
 constexpr double kCornerCosine = 0.8660254;  ///< of 30 degrees
 constexpr double kApart = 0.7;               ///< units
-constexpr std::size_t kTriesAtMost = 64;
-constexpr double kPointsAtMost = 4e6;
+constexpr std::size_t kTriesAtMost = 32, kThinnedOneByOne = 200;
+constexpr double kPointsAtMost = 2e5;
 
 /// A corner of a path: where it is along it, and the cosine of its turn.
 struct Corner {
@@ -133,6 +134,33 @@ std::vector<Piece> pieces_of(const std::vector<SketchPath>& paths, const Tracks&
     return out;
 }
 
+/// Points none of which is nearer to another than a distance; asking takes the same time however many are refused.
+class TakenPoints {
+  public:
+    TakenPoints(const Vec2& origin, double apart) : origin_(origin), apart_(apart) {}
+
+    /// Takes the point unless one that is taken is too near.
+    bool take(const Vec2& p) {
+        const auto column = static_cast<std::int64_t>(std::floor((p.x - origin_.x) / apart_));
+        const auto row = static_cast<std::int64_t>(std::floor((p.y - origin_.y) / apart_));
+        for (std::int64_t r = row - 1; r <= row + 1; ++r) {
+            for (std::int64_t c = column - 1; c <= column + 1; ++c) {
+                const auto found = cells_.find({c, r});
+                if (found == cells_.end()) continue;
+                for (const Vec2& other : found->second)
+                    if (glm::distance(p, other) < apart_) return false;
+            }
+        }
+        cells_[{column, row}].push_back(p);
+        return true;
+    }
+
+  private:
+    Vec2 origin_;
+    double apart_;
+    std::map<std::pair<std::int64_t, std::int64_t>, std::vector<Vec2>> cells_;
+};
+
 /// The points of pieces divided into steps, those too near to others left out.
 std::vector<Vec2> points_of(const Tracks& tracks, const std::vector<Piece>& pieces,
                             const std::vector<std::size_t>& steps, double apart) {
@@ -147,17 +175,11 @@ std::vector<Vec2> points_of(const Tracks& tracks, const std::vector<Piece>& piec
         }
     }
     if (apart <= 0.0 || all.empty()) return all;
-    const SiteGrid grid(all, apart);
+    TakenPoints grid(all.front(), apart);
     std::vector<bool> taken(all.size(), false);
     for (const bool corners : {true, false}) {
-        for (std::size_t i = 0; i < all.size(); ++i) {
-            if (corner[i] != corners) continue;
-            bool free = true;
-            grid.near(all[i], 1, [&](std::size_t j, const Vec2& p) {
-                free = free && !(taken[j] && glm::distance(p, all[i]) < apart);
-            });
-            taken[i] = free;
-        }
+        for (std::size_t i = 0; i < all.size(); ++i)
+            if (corner[i] == corners) taken[i] = grid.take(all[i]);
     }
     std::vector<Vec2> out;
     for (std::size_t i = 0; i < all.size(); ++i)
@@ -187,8 +209,13 @@ std::vector<std::size_t> divided(const std::vector<Piece>& pieces, std::size_t c
     return steps;
 }
 
-/// Takes the points away that stand closest to another one before them.
+/// Takes the points away that stand closest to another one before them; of many too many, every so many.
 void thin(std::vector<Vec2>& points, std::size_t count) {
+    if (points.size() > count + kThinnedOneByOne) {
+        std::vector<Vec2> kept;
+        for (std::size_t k = 0; k < count; ++k) kept.push_back(points[k * points.size() / count]);
+        points = std::move(kept);
+    }
     while (points.size() > count) {
         std::size_t worst = 0;
         double closest = std::numeric_limits<double>::infinity();
@@ -222,8 +249,10 @@ std::vector<Vec2> resampled_exactly(const std::vector<SketchPath>& paths, std::s
     std::vector<Vec2> out;
     std::size_t asked = count;
     for (std::size_t k = 0; k < kTriesAtMost; ++k) {
+        const bool last = k + 1 == kTriesAtMost || static_cast<double>(asked) > kPointsAtMost;
+        if (last) asked = count;  // then without regard to how near they come
         const std::vector<Piece> pieces = pieces_of(paths, tracks, asked);
-        const double apart = k + 1 < kTriesAtMost ? kApart * tracks.total() / static_cast<double>(asked) : 0.0;
+        const double apart = last ? 0.0 : kApart * tracks.total() / static_cast<double>(asked);
         out = points_of(tracks, pieces, divided(pieces, asked), apart);
         if (out.size() >= count) break;
         asked += count - out.size();

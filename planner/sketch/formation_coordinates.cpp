@@ -89,7 +89,7 @@ FormationCoordinate coordinate_in(const PlaneFrame& frame, const Vec2& point) {
     const double radius = frame.radius[nearest<Vec2>(frame.direction, d)];
     if (!(length > 1e-12 * radius)) return {};
     const Vec2 told = turned(frame.reference, d.x / length, d.y / length);
-    return {length / radius, told.x, told.y, 0.0};
+    return {radius > 0.0 ? length / radius : 1.0, told.x, told.y, 0.0};
 }
 
 SpaceFrame space_frame(std::span<const Vec3> points, std::span<const double> weights, double reference_rad) {
@@ -123,7 +123,7 @@ FormationCoordinate coordinate_in(const SpaceFrame& frame, const Vec3& point) {
     const double radius = frame.radius[nearest<Vec3>(frame.direction, d)];
     if (!(length > 1e-12 * radius)) return {};
     const Vec2 told = turned(frame.reference, d.x / length, d.y / length);
-    return {length / radius, told.x, told.y, d.z / length};
+    return {radius > 0.0 ? length / radius : 1.0, told.x, told.y, d.z / length};
 }
 
 std::vector<FormationCoordinate> coordinates_in(const PlaneFrame& frame, std::span<const Vec2> points) {

@@ -59,6 +59,10 @@ class Outliner {
   private:
     void cut_each_other(std::size_t a, std::size_t b) {
         const ClosedCurve &one = region_.curves()[a], &other = region_.curves()[b];
+        const double apart = kSame * size_;
+        if (one.bounds().low.x > other.bounds().high.x + apart || other.bounds().low.x > one.bounds().high.x + apart ||
+            one.bounds().low.y > other.bounds().high.y + apart || other.bounds().low.y > one.bounds().high.y + apart)
+            return;
         for (std::size_t k = 0; k < one.corners().size(); ++k) {
             const Vec2 &p = one.from(k), &q = one.to(k);
             other.edges_between(std::min(p.y, q.y), std::max(p.y, q.y), [&](std::size_t e) {

@@ -9,8 +9,9 @@
 namespace aerogram::planner {
 namespace {
 
-constexpr double kReach = 2.5;  ///< spacings; who is farther away is no neighbour
-constexpr double kStep = 0.25;  ///< spacings, at most, a round
+constexpr double kReach = 2.5;   ///< spacings; who is farther away is no neighbour
+constexpr double kStill = 1e-6;  ///< spacings
+constexpr double kStep = 0.25;   ///< spacings, at most, a round
 
 class Relaxer {
   public:
@@ -29,8 +30,10 @@ class Relaxer {
             }
             const SiteGrid grid(points_, kReach * widest);
             next_ = points_;
-            for (std::size_t i = fixed_; i < points_.size(); ++i) move(i, grid);
+            bool moved = false;
+            for (std::size_t i = fixed_; i < points_.size(); ++i) moved = move(i, grid) || moved;
             points_.swap(next_);
+            if (!moved) break;
         }
         return std::move(points_);
     }
@@ -38,7 +41,8 @@ class Relaxer {
   private:
     [[nodiscard]] double weight(std::size_t i) const { return how_.weights.empty() ? 1.0 : how_.weights[i]; }
 
-    void move(std::size_t i, const SiteGrid& grid) {
+    /// Whether it is by more than next to nothing.
+    bool move(std::size_t i, const SiteGrid& grid) {
         const Vec2 here = points_[i];
         Vec2 v{};
         double neighbours = 0.0;
@@ -50,15 +54,16 @@ class Relaxer {
             v += weight(j) * std::exp(-how_.beta * squared) * d;
             neighbours += 1.0;
         });
-        if (neighbours == 0.0) return;
+        if (neighbours == 0.0) return false;
         Vec2 step = (how_.speed * weight(i) / neighbours) * v;
         const double length = glm::length(step), longest = kStep * spacing_[i];
         if (length > longest) step *= longest / length;
         for (int tries = 0; tries < 3; ++tries, step *= 0.5) {
             if (how_.inside && !how_.inside(here + step)) continue;
             next_[i] = here + step;
-            return;
+            return glm::length(step) > kStill * spacing_[i];
         }
+        return false;
     }
 
     std::vector<Vec2> points_, next_;

@@ -22,10 +22,11 @@ struct GaussianRelaxation {
 /// Spreads points evenly: round by round each moves by speed * w * the mean over its neighbours of d exp(-beta d²), d
 /// the way from the neighbour. Neighbours are those within 2.5 spacings, registered in a grid each round (section 3.5).
 /// @param points  at least one. @param fixed  the first ones stay.
-/// Properties: (1) the fixed stay (2) a point that is inside stays inside (3) deterministic. Cost: O(points) a round.
-/// Where we differ: neighbours' pushes are multiplied by their weights, too, as the text wants heavy agents to push the
-/// others away, which as printed w does not do; where a density is asked for, beta follows the local spacing; a step is
-/// a quarter spacing at most, and one that would leave the inside is halved twice, else not made.
+/// Properties: (1) the fixed stay (2) a point that is inside stays inside (3) deterministic. Cost: O(points) a round,
+/// fewer rounds where nobody moves any more. Where we differ: neighbours' pushes are multiplied by their weights, too,
+/// as the text wants heavy agents to push the others away, which as printed w does not do; where a density is asked
+/// for, beta follows the local spacing; a step is a quarter spacing at most, and one that would leave the inside is
+/// halved twice, else not made.
 [[nodiscard]] std::vector<Vec2> relaxed(std::vector<Vec2> points, std::size_t fixed, const GaussianRelaxation& how);
 
 }  // namespace aerogram::planner

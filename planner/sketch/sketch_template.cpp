@@ -14,6 +14,7 @@ namespace {
 constexpr double kClearance = 0.7;    ///< units; how near to boundary points the inside begins
 constexpr double kTrialPlaces = 4.0;  ///< places an agent in the box at the first, small unit
 constexpr double kTrialAtLeast = 1000.0;
+constexpr double kDensest = 1e9;  ///< brushes multiply without end
 constexpr int kUnitTries = 60, kWidenings = 6;
 constexpr double kOversampled = 1.1;  ///< places inside an agent inside, at most
 
@@ -119,7 +120,7 @@ class TemplateMaker {
             std::vector<float> density(fine.lattice.across * fine.lattice.up, 0.0F);
             double sum = 0.0;
             for (std::size_t k = 0; k < fine.cells.size(); ++k) {
-                const double d = std::max(0.0, options_.density(fine.points[k]));
+                const double d = std::min(std::max(0.0, options_.density(fine.points[k])), kDensest);
                 density[fine.cells[k]] = static_cast<float>(d);
                 sum += d;
             }

@@ -28,7 +28,7 @@ struct SketchTemplate {
     double unit = 1.0;          ///< along the boundary
     double fill_unit = 1.0;     ///< of the lattice inside
     double inside_area = 0.0;   ///< of the lattice's places
-    double mean_density = 1.0;  ///< over those
+    double mean_density = 0.0;  ///< over those; 0: they are spread evenly
     bool unit_changed = false;  ///< the unit asked for did not suit the number of agents
 };
 

@@ -13,6 +13,7 @@ namespace aerogram::planner {
 namespace {
 
 constexpr std::size_t kLinesAtMost = 1'000, kPointsAtMost = 20'000;
+constexpr std::size_t kMovesAtMost = 20'000'000;  ///< of all agents in all rounds
 
 /// The places that agents took, ascending: those on the boundary first, as templates have them.
 std::vector<std::uint32_t> taken_places(const std::vector<std::uint32_t>& candidate_of) {
@@ -24,7 +25,7 @@ std::vector<std::uint32_t> taken_places(const std::vector<std::uint32_t>& candid
 /// How far neighbours inside are to be apart so that they fill what the template fills.
 std::function<double(const Vec2&)> spacing_by(const SketchTemplate& candidates, const SketchDensity& density,
                                               double spacing) {
-    if (!density) return {};
+    if (!density || candidates.mean_density <= 0.0) return {};
     const double mean = candidates.mean_density;
     return [density, mean, spacing](const Vec2& p) {
         const double d = std::clamp(density(p), mean / kDensityContrast, mean * kDensityContrast);
@@ -84,7 +85,7 @@ SketchedFormation form(const Sketch& sketch, std::span<const Vec2> agents, const
         if (options.weight) weights.push_back(options.weight(agent_at[k], k));
     }
     GaussianRelaxation how;
-    how.rounds = options.relaxation_rounds;
+    how.rounds = std::min(options.relaxation_rounds, kMovesAtMost / n);
     how.beta = options.beta;
     how.speed = options.speed;
     how.weights = weights;

@@ -23,9 +23,9 @@ Result<Sketch> make_sketch(const std::vector<SketchStroke>& strokes);
 
 struct SketchOptions {
     TemplateOptions sampling{};
-    std::size_t relaxation_rounds = 60;
-    double beta = 3.0;   ///< algorithm 1, in 1 / spacing²
-    double speed = 8.0;  ///< algorithm 1
+    std::size_t relaxation_rounds = 60;  ///< never more than 20 million over the number of agents
+    double beta = 3.0;                   ///< algorithm 1, in 1 / spacing²
+    double speed = 8.0;                  ///< algorithm 1
     /// The relaxation weight w of an agent that takes the place-th of the formation's places; empty: 1.
     std::function<double(std::size_t agent, std::size_t place)> weight{};
     /// How far the direction from which the agents' orientations are told is turned, counter-clockwise: where the group

@@ -111,6 +111,23 @@ TEST(SketchedFormation, DrawingsWithoutAPlaceForAnybodyAreRefused) {
               "has 1001 lines with 180180 points; at most 1000 lines and 20000 points");
 }
 
+TEST(SketchedFormation, AgentsOnOneAnotherHavePlacesOfTheirOwn) {
+    const Sketch sketch = make_sketch({circle({0, 0}, 10)}).value();
+    const SketchedFormation formed = form(sketch, std::vector<Vec2>(50, Vec2(3, 4)));
+    EXPECT_EQ(std::set<std::size_t>(formed.place.begin(), formed.place.end()).size(), 50U);
+    EXPECT_GT(smallest_distance(formed.targets), 0.5 * formed.candidates.unit);
+}
+
+TEST(SketchedFormation, BrushesWithoutMeasureEnd) {
+    const Sketch sketch = make_sketch({circle({0, 0}, 10)}).value();
+    SketchOptions options;
+    options.sampling.density = [](const Vec2& p) { return p.x > 3.0 ? 1e300 * 1e300 : p.x > 0.0 ? 0.0 : 1e-300; };
+    const SketchedFormation formed = form(sketch, scattered(100, 8), options);
+    for (const Vec2& p : formed.targets) EXPECT_LE(glm::length(p), 10.0 + 1e-9);
+    options.sampling.density = [](const Vec2&) { return 0.0; };
+    EXPECT_EQ(form(sketch, scattered(100, 8), options).targets.size(), 100U);
+}
+
 // A scribble crosses itself millions of times; it is bounded in time and memory, and everybody still has a place.
 TEST(SketchedFormation, ScribblesEnd) {
     Random random(1);
@@ -119,6 +136,14 @@ TEST(SketchedFormation, ScribblesEnd) {
     const Sketch sketch = make_sketch({scribble}).value();
     const SketchedFormation formed = form(sketch, scattered(50, 2));
     EXPECT_EQ(formed.targets.size(), 50U);
+}
+
+// Lines a thousandth apart: two million metres of them once took as many points as there was memory for.
+TEST(SketchedFormation, EndlessLinesInALittleRoomEnd) {
+    SketchStroke zigzag;
+    for (int k = 0; k < 20'000; ++k) zigzag.points.emplace_back(k % 2 == 0 ? 0.0 : 100.0, 0.001 * k);
+    const SketchedFormation formed = form(make_sketch({zigzag}).value(), scattered(500, 2));
+    EXPECT_EQ(formed.targets.size(), 500U);
 }
 
 }  // namespace
