@@ -14,7 +14,8 @@
 
 namespace aerogram::planner {
 
-/// A font file, and which of its faces is meant.
+/// A font file, and which of its faces is meant: counted from 0 in the lower 16 bits, in the upper ones the named
+/// instance of a variable font, counted from 1; 0: as it is by default.
 struct FontFile {
     std::filesystem::path file;
     unsigned face = 0;
@@ -31,8 +32,8 @@ Result<FontFile> installed_font(const std::string& name);
 /// A font's bytes, as shaping and drawing want them.
 struct FontData {
     std::string bytes;
-    unsigned face = 0;
-    std::string name;  ///< for messages
+    unsigned face = 0;  ///< as FontFile's
+    std::string name;   ///< for messages
 };
 /// Errors: io when it cannot be read or is larger than 64 MiB.
 Result<FontData> load_font(const FontFile& file);

@@ -34,10 +34,11 @@ struct Face {
     int weight = 0, slant = 0, width = 0;
     std::string file;
     int index = 0;
+    bool whole_variable = false;  ///< a variable font with all its instances at once, whose weight is a range
     /// The regular upright face comes first.
     [[nodiscard]] auto rank() const {
         return std::tuple(std::abs(slant - FC_SLANT_ROMAN), std::abs(weight - FC_WEIGHT_REGULAR),
-                          std::abs(width - FC_WIDTH_NORMAL), file, index);
+                          std::abs(width - FC_WIDTH_NORMAL), whole_variable, file, index);
     }
 };
 
@@ -56,6 +57,8 @@ Face face_of(FcPattern* pattern) {
         face.file = reinterpret_cast<const char*>(file);
     }
     FcPatternGetInteger(pattern, FC_INDEX, 0, &face.index);
+    FcBool variable = FcFalse;
+    face.whole_variable = FcPatternGetBool(pattern, FC_VARIABLE, 0, &variable) == FcResultMatch && variable == FcTrue;
     return face;
 }
 
@@ -80,7 +83,7 @@ Owned<FcFontSet> installed(std::optional<char32_t> character) {
         FcPatternAddCharSet(any.get(), FC_CHARSET, wanted.get());
     }
     const Owned<FcObjectSet> objects(FcObjectSetBuild(FC_FAMILY, FC_FULLNAME, FC_FILE, FC_INDEX, FC_WEIGHT, FC_SLANT,
-                                                      FC_WIDTH, static_cast<char*>(nullptr)));
+                                                      FC_WIDTH, FC_VARIABLE, static_cast<char*>(nullptr)));
     return Owned<FcFontSet>(FcFontList(config.get(), any.get(), objects.get()));
 }
 
@@ -135,8 +138,8 @@ Result<FontFile> installed_font(const std::string& name) {
         if (!best || face.rank() < best->rank()) best = face;
     }
     if (!best) return not_installed(name, families);
-    // Above the 16th bit stands the instance of a variable font: its default one is meant.
-    return FontFile{best->file, static_cast<unsigned>(best->index) & 0xFFFFU};
+    const auto index = static_cast<unsigned>(best->index);
+    return FontFile{best->file, best->whole_variable ? index & 0xFFFFU : index};
 }
 
 std::optional<std::string> installed_family_with(char32_t character) {

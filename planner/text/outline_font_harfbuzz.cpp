@@ -76,11 +76,14 @@ class Shaper {
         : font_(font),
           blob_(hb_blob_create(font.bytes.data(), static_cast<unsigned>(font.bytes.size()), HB_MEMORY_MODE_READONLY,
                                nullptr, nullptr)),
-          face_(hb_face_create(blob_.get(), font.face)),
+          face_(hb_face_create(blob_.get(), font.face & 0xFFFFU)),
           shaper_(hb_font_create(face_.get())) {
         const auto em = static_cast<int>(units_per_em());
         hb_font_set_scale(shaper_.get(), em, em);
         hb_ot_font_set_funcs(shaper_.get());
+        if (const unsigned instance = font.face >> 16U; instance > 0) {
+            hb_font_set_var_named_instance(shaper_.get(), instance - 1);
+        }
     }
     [[nodiscard]] bool usable() const { return hb_face_get_glyph_count(face_.get()) > 0; }
     [[nodiscard]] unsigned units_per_em() const { return hb_face_get_upem(face_.get()); }

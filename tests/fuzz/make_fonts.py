@@ -13,6 +13,7 @@ from fontTools.pens.cu2quPen import Cu2QuPen
 from fontTools.pens.t2CharStringPen import T2CharStringPen
 from fontTools.pens.ttGlyphPen import TTGlyphPen
 from fontTools.ttLib import TTCollection, TTFont, newTable
+from fontTools.ttLib.tables.TupleVariation import TupleVariation
 
 FOLDER = pathlib.Path(__file__).parent / "corpus" / "font"
 EPOCH = 3_800_000_000  # seconds since 1904: a fixed date
@@ -103,6 +104,17 @@ def coloured():
     return font
 
 
+def variable():
+    """A grows wider with its weight; instances Regular and Black."""
+    font = begun("Aerogram Variable", False, {g: GLYPHS[g] for g in (".notdef", "space", "A", "i")})
+    builder = FontBuilder(font=font)
+    builder.setupFvar([("wght", 400, 400, 900, "Weight")],
+                      [{"location": {"wght": weight}, "stylename": style} for weight, style in ((400, "Regular"), (900, "Black"))])
+    right = [(0, 0), (0, 0), (100, 0), (100, 0)]
+    builder.setupGvar({"A": [TupleVariation({"wght": (0.0, 1.0, 1.0)}, [*right, *[(0, 0)] * 4, (0, 0), (100, 0), (0, 0), (0, 0)])]})
+    return font
+
+
 def png():
     """One 8 x 8 square, black."""
     def chunk(kind, data):
@@ -137,6 +149,7 @@ shaped("Aerogram Own", False).save(FOLDER / "own.ttf")
 shaped("Aerogram Own", True).save(FOLDER / "own.otf")
 coloured().save(FOLDER / "coloured.ttf")
 bitmaps().save(FOLDER / "bitmaps.ttf")
+variable().save(FOLDER / "variable.ttf")
 both = TTCollection()
 both.fonts = [TTFont(FOLDER / "own.ttf", recalcTimestamp=False), TTFont(FOLDER / "coloured.ttf", recalcTimestamp=False)]
 both.save(FOLDER / "two.ttc")

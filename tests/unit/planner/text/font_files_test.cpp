@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -86,6 +87,50 @@ TEST(FontFiles, CollectionsHoldSeveralFaces) {
     EXPECT_FALSE(glyph_outlines(none, std::array{1U}).ok());
 }
 
+TEST(FontFiles, VariableFontsHaveTheirNamedInstances) {
+    const auto right_edge = [](const FontData& font) {
+        const auto glyph =
+            shape_text(font, std::array<std::string_view, 1>{"A"}).value().lines.front().glyphs.at(0).glyph;
+        return bounds_of(glyph_outlines(font, std::array{glyph}).value().front()).high.x;
+    };
+    for (const unsigned instance : {0U, 1U}) {  // as it is by default, and Regular
+        const FontData font = font_file("variable.ttf", instance << 16U);
+        EXPECT_EQ(width_of(font, "A"), 600.0);
+        EXPECT_EQ(right_edge(font), 500.0);
+    }
+    const FontData black = font_file("variable.ttf", 2U << 16U);
+    EXPECT_EQ(width_of(black, "A"), 700.0);
+    EXPECT_EQ(right_edge(black), 600.0);
+    EXPECT_FALSE(glyph_outlines(font_file("variable.ttf", 9U << 16U), std::array{1U}).ok());
+}
+
+/// Fontconfig with the corpus's fonts alone.
+class OnlyCorpusInstalled : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        const fs::path file = fs::path(::testing::TempDir()) / "only-corpus-fonts.conf";
+        std::ofstream(file) << "<?xml version=\"1.0\"?><fontconfig><dir>" << (kCorpus / "font").string()
+                            << "</dir><cachedir>" << ::testing::TempDir()
+                            << "only-corpus-fonts</cachedir></fontconfig>";
+        setenv("FONTCONFIG_FILE", file.c_str(), 1);
+    }
+    void TearDown() override { unsetenv("FONTCONFIG_FILE"); }
+};
+
+TEST_F(OnlyCorpusInstalled, InstancesOfVariableFontsAreFoundByName) {
+    EXPECT_EQ(installed_font("Aerogram Variable").value().face >> 16U, 0U);
+    const FontFile black = installed_font("aerogram variable black").value();
+    EXPECT_EQ(black.file.filename(), "variable.ttf");
+    EXPECT_EQ(black.face >> 16U, 2U);
+    EXPECT_EQ(width_of(load_font(black).value(), "A"), 700.0);
+}
+
+TEST_F(OnlyCorpusInstalled, FontsOfBitmapsAloneAreNotOffered) {
+    const auto refused = installed_font("Aerogram Bitmaps");
+    ASSERT_FALSE(refused.ok());
+    EXPECT_THAT(refused.error().message, HasSubstr("no installed font has this name; the nearest are"));
+}
+
 TEST(FontFiles, BitmapsAndColouredPicturesAreRefused) {
     EXPECT_THAT(why(kCorpus / "font/bitmaps.ttf"), HasSubstr("bitmaps.ttf has bitmaps, not outlines"));
     EXPECT_EQ(why(kCorpus / "font/coloured.ttf", "A f"), "drawn");
@@ -123,7 +168,7 @@ TEST(FontFuzz, CorpusItsCutsAndFlippedBytesAreHandled) {
         }
         ++files;
     }
-    EXPECT_EQ(files, 5U);
+    EXPECT_EQ(files, 6U);
 }
 
 TEST(FontFuzz, InstalledFontsDamagedAreHandled) {
