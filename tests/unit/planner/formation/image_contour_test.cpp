@@ -105,6 +105,27 @@ TEST(ImageContour, NothingToBeSeenIsAnError) {
     EXPECT_THAT(build(mission_of({part_of(contour(file), 5)})).error().message, HasSubstr("is dark everywhere"));
 }
 
+TEST(ImageContour, HasExactlyNDronesAtTheSpacingForEveryN) {
+    const OwnFile file(".png", disc_picture());
+    for (const bool lines : {true, false}) {
+        ImageSource source = contour(file);
+        source.contour = lines;
+        for (const std::size_t n : {1U, 2U, 3U, 4U, 5U, 7U, 10U, 100U, 1000U, 20'000U}) {
+            if (!lines && n > 1000) continue;
+            Mission mission = mission_of({part_of(source, n)});
+            mission.limits.ceiling_m = 1e6;
+            mission.limits.min_navigation_altitude_m = -1e6;
+            const auto formation = build(mission);
+            ASSERT_TRUE(formation.ok()) << n << ' ' << formation.error().message;
+            EXPECT_EQ(formation->points_m.size(), n);
+            EXPECT_EQ(formation->colors.size(), n);
+            if (n > 1) {
+                EXPECT_GE(formation->smallest_spacing_m, 2.2 - 1e-9) << n;
+            }
+        }
+    }
+}
+
 TEST(ImageContour, NoiseIsBoundedAndSaysWhatIsLeftOut) {  // some 100,000 specks
     Random random(5);
     std::vector<bool> lit;
