@@ -5,6 +5,7 @@
 
 #include "export/format.hpp"
 #include "export/light_program.hpp"
+#include "export/show_hash.hpp"
 #include "fixed_show.hpp"
 #include "geo/units.hpp"
 #include "planner/light/lights.hpp"
@@ -59,7 +60,7 @@ TEST(LitShow, EveryFormatWithLightsBringsThemBack) {
     for (const std::string name : {"trajectories", "skyc", "csv", "preview"}) {
         const Format* format = find_format(name);
         ASSERT_NE(format, nullptr) << name;
-        const RecordedShow show = read_back(*format, written_files(*format, plan));
+        const RecordedShow show = read_back(*format, written_files(*format, plan, {show_hash(plan), true}));
         ASSERT_EQ(show.drones.size(), plan.drones()) << name;
         for (std::size_t d = 0; d < plan.drones(); ++d) {
             const auto& keys = show.drones[d].tracks.lights;

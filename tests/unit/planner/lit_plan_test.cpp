@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geo/units.hpp"
+#include "planner/light/light_time.hpp"
 #include "planner/plan.hpp"
 #include "small_shows.hpp"
 
@@ -102,6 +103,19 @@ TEST(LitPlan, LightsShineOverKeyframesThatAFlowPasses) {
     ASSERT_EQ(b.stands_from_ms, b.stands_to_ms);
     expect_gradient(plan, b, {1, 0, 0}, seconds_from_ms(b.stands_from_ms) - 0.5);
     expect_gradient(plan, b, {1, 0, 0}, seconds_from_ms(b.stands_from_ms) + 0.5);
+}
+
+/// Lamps of drones that had landed in the first wave shone until the last one began.
+TEST(LitPlan, FromTheFirstWaveOfLandingsOnLampsAreDark) {
+    const FlightPlan plan = planned(show_of("[limits]\nmin_separation_m = 4\n" + keyframe("a", "circle") +
+                                            "[[light]]\neffect = \"pulse\"\nblend = \"add\"\n"));
+    const auto first = std::ranges::find(plan.acts, ActRole::landing, &Act::role);
+    ASSERT_NE(first, plan.acts.end());
+    ASSERT_NE(first + 1, plan.acts.end()) << "one wave";
+    EXPECT_EQ(lamp_time(plan.acts).to_ms, first->start_ms / 20 * 20);
+    const double begin_s = seconds_from_ms(first->start_ms) + 0.01, end_s = seconds_from_ms(plan.duration_ms());
+    for (double t_s = begin_s; t_s <= end_s; t_s += 0.1)
+        for (std::size_t d = 0; d < plan.drones(); ++d) ASSERT_EQ(sample(plan, DroneId(d), t_s).color, Rgb{}) << t_s;
 }
 
 TEST(LitPlan, ThreadsChangeNothing) {
