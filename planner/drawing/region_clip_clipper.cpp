@@ -138,7 +138,7 @@ std::optional<std::vector<std::size_t>> clusters(const std::vector<Bounds>& boxe
     for (const std::size_t i : order) {
         std::erase_if(active, [&](std::size_t j) { return boxes[j].high.y < boxes[i].low.y; });
         pairs += active.size();
-        if (pairs > 20 * kPairsAtMost) return std::nullopt;
+        if (pairs > 2 * kPairsAtMost) return std::nullopt;
         for (const std::size_t j : active) {
             if (boxes[j].low.x > boxes[i].high.x || boxes[i].low.x > boxes[j].high.x) continue;
             const std::size_t a = find(i), b = find(j);

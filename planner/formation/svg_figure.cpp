@@ -79,6 +79,15 @@ Result<Figure> as_drawn(const PartRef& ref, const SvgSource& source, const Ink& 
     Ink seen = visible(ink);
     join_lines(seen.layers);
     if (seen.layers.empty()) return ref.error(key + "shows nothing that is lit");
+    if (seen.layers.size() > ref.part.drones) {
+        SvgSource whole = source;
+        whole.style = SvgStyle::fill;
+        auto figure = as_area(ref, whole, ink, key, run);
+        if (!figure) return figure;
+        say(figure->note, ink.note);
+        say(figure->note, "has more shapes than drones: shown as one area");
+        return figure;
+    }
     const Bounds box = bounds_of(seen.layers);
     const auto layers =
         std::make_shared<const std::vector<InkLayer>>(placed(seen.layers, 0.5 * (box.low + box.high), Vec2(1.0)));

@@ -184,6 +184,19 @@ TEST(SvgInk, PaperIsLeftOutAndBlackIsLit) {
     EXPECT_EQ(mixed.note, "black is lit dim");
 }
 
+TEST(SvgFigure, MoreShapesThanDronesAreOneArea) {
+    std::string dots;
+    for (int i = 0; i < 400; ++i) {
+        dots += "<circle r='1.5' fill='red' cx='" + std::to_string(i % 20 * 5) + "' cy='" + std::to_string(i / 20 * 5) +
+                "'/>";
+    }
+    const Figure f = figure(svg(drawn("dots", dots)), 50);
+    const Points points = f.points(Vec3(1.0));
+    EXPECT_EQ(points.size(), 50U);
+    EXPECT_GT(nearest(points), 5.0);  // spread over all of them
+    EXPECT_THAT(f.note, HasSubstr("has more shapes than drones: shown as one area"));
+}
+
 TEST(SvgFigure, WarningsOfTheReaderAreTheNote) {
     const Figure f = figure(svg(drawn("words", "<text>Hi</text><circle r='9' fill='red'/>")), 5);
     EXPECT_THAT(f.note, HasSubstr("line 1: text is not drawn"));
