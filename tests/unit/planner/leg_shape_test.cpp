@@ -80,5 +80,32 @@ TEST(LegShape, GroupsThatOverlapOnOneWayAreRefused) {
     EXPECT_NE(shape.error().message.find("shares some of its drones"), std::string::npos);
 }
 
+/// A row of eight, 4 m apart, with a mast in its middle: drones 4 and 5 (0-based 3 and 4) do not see each other.
+TEST(GraphKeyframe, NobodyIsANeighbourThroughAnObstacleUnlessAnEditSaysSo) {
+    const std::string row =
+        "[[keyframe]]\nname = \"row\"\nshape = \"line\"\nsize_m = [28]\ncenter_m = [0, 0, 40]\n"
+        "arrive = { assign = \"keep\" }\n";
+    const auto neighbours_in_the_middle = [&](const std::string& more, bool carried = false) {
+        Mission mission = show_of(more + row);
+        if (carried) mission.carrier.emplace();
+        Route route;
+        Points row_m;
+        for (int i = 0; i < 8; ++i) row_m.emplace_back(-14.0 + 4.0 * i, 0.0, 40.0);
+        const auto keyframe = graph_keyframe(mission, route, row_m, aerogram::Run{});
+        EXPECT_TRUE(keyframe.ok()) << keyframe.error().message;
+        EXPECT_EQ(keyframe->positions_m, row_m);
+        return std::ranges::count_if(keyframe->graph.edges, [](const Edge& e) { return e.a == 3 && e.b == 4; });
+    };
+    const std::string mast =
+        "[[airspace.obstacle]]\nkind = \"cylinder\"\ncenter_m = [0, 0]\nradius_m = 1\nheight_m = 60\n";
+    const std::string low =
+        "[[airspace.obstacle]]\nkind = \"cylinder\"\ncenter_m = [0, 0]\nradius_m = 1\nheight_m = 39\n";
+    EXPECT_EQ(neighbours_in_the_middle(""), 1);
+    EXPECT_EQ(neighbours_in_the_middle(low), 1);
+    EXPECT_EQ(neighbours_in_the_middle(mast), 0);
+    EXPECT_EQ(neighbours_in_the_middle(mast + "[[adjacency]]\nbetween = [4, 5]\nweight = 1\n"), 1);
+    EXPECT_EQ(neighbours_in_the_middle(mast, true), 1);  // it stands in the ground's frame, the row moves along
+}
+
 }  // namespace
 }  // namespace aerogram::planner
