@@ -16,6 +16,7 @@ constexpr double kWords = 372.0;      ///< width of the words below
 constexpr double kWordNames = 106.0;  ///< of these the names
 constexpr double kHistogram = 72.0;   ///< height of the bars
 constexpr std::size_t kBins = 40;
+constexpr std::size_t kMostLines = 4;  ///< of one text
 
 /// The largest scale at which the views side by side and above each other have room.
 double fitting_scale(const Vec3& size_m, double width, double height) {
@@ -31,20 +32,43 @@ double fitting_scale(const Vec3& size_m, double width, double height) {
     return low;
 }
 
-/// Words below the views, from `top_px` on; a text that is too long goes on in a second line.
-/// @returns where they end.
-double draw_words(Canvas& canvas, const Lettering& lettering, const std::vector<FactLine>& lines, double u,
-                  double top_px) {
-    double y = top_px + kTextSize * u;
+/// Texts that are too long for their line go on in the next, at most kMostLines in all; the last is cut where it is
+/// drawn.
+std::vector<FactLine> wrapped(const Lettering& lettering, const std::vector<FactLine>& lines, double u) {
+    std::vector<FactLine> out;
     for (const FactLine& line : lines) {
         if (line.name == "mission" || line.name == "keyframe") continue;  // the title
+        FactLine now{line.name, ""};
+        std::size_t begun = 1;
+        for (std::size_t at = 0; at < line.text.size();) {
+            const std::size_t end = std::min(line.text.find(' ', at), line.text.size());
+            const std::string word = line.text.substr(at, end - at);
+            const std::string longer = now.text.empty() ? word : now.text + ' ' + word;
+            const bool fits = lettering.label(longer, kTextSize * u).width <= (kWords - kWordNames) * u;
+            if (!fits && !now.text.empty() && begun < kMostLines) {
+                out.push_back(now);
+                now = {"", word};
+                ++begun;
+            } else {
+                now.text = longer;
+            }
+            at = end + 1;
+        }
+        out.push_back(now);
+    }
+    return out;
+}
+
+void draw_words(Canvas& canvas, const Lettering& lettering, const std::vector<FactLine>& lines, double u,
+                double top_px) {
+    double y = top_px + kTextSize * u;
+    for (const FactLine& line : lines) {
         draw_text(canvas, lettering.label(line.name, kTextSize * u, (kWordNames - 6.0) * u), {kMargin * u, y},
                   ink::kMuted);
         draw_text(canvas, lettering.label(line.text, kTextSize * u, (kWords - kWordNames) * u),
                   {(kMargin + kWordNames) * u, y}, ink::kText);
         y += kLine * u;
     }
-    return y;
 }
 
 void draw_histogram(Canvas& canvas, const Lettering& lettering, const FormationFacts& facts, double u, double top_px) {
@@ -140,8 +164,9 @@ Result<std::string> formation_picture(const planner::Formation& formation, const
 
     std::vector<FactLine> lines = fact_lines(facts);
     if (const std::string outside = outside_text(views.frame, drones); !outside.empty()) lines.push_back({"", outside});
+    lines = wrapped(*lettering, lines, u);
     const double words_px = views.bottom_px + 14.0 * u;
-    const double height = std::max(static_cast<double>(lines.size() - 2) * kLine + 4.0, kHistogram + 40.0) + kMargin;
+    const double height = std::max(static_cast<double>(lines.size()) * kLine + 4.0, kHistogram + 40.0) + kMargin;
     Canvas canvas(width_px, static_cast<int>(std::ceil(words_px + height * u)), ink::kPage);
     draw_title(canvas, *lettering, u, facts.keyframe,
                facts.show + ", keyframe " + std::to_string(facts.number) + " of " + std::to_string(facts.keyframes));

@@ -152,6 +152,17 @@ TEST(FormationPicture, TwentyThousandAndLongNamesFitTheSmallestPage) {
     EXPECT_TRUE(inside(d.views.front, d.views.front.on_canvas(points_m.back())));
 }
 
+TEST(FormationPicture, LongNotesGoOnInTheNextLinesAndStayOnThePage) {
+    auto formation = formation_of({{0, 0, 30}, {3, 0, 30}});
+    const std::size_t without = drawn(formation).picture.height;
+    for (int word = 0; word < 30; ++word) formation.note += "resampled ";
+    const std::size_t with_note = drawn(formation).picture.height;
+    EXPECT_GT(with_note, without);
+    EXPECT_LT(with_note, without + 100);
+    formation.note = std::string(5000, 'x') + ' ' + std::string(5000, 'y');
+    EXPECT_LE(drawn(formation).picture.height, with_note);
+}
+
 TEST(FormationPicture, Property1_SameFormationSameBytes) {
     const auto formation = formation_of({{-8, 2, 30}, {8, -3, 30}, {0, 7, 42}}, {0.3, 0.8, 0.1});
     const auto facts = facts_of(mission_of_one("show", "κλειδί"), 0, formation);
