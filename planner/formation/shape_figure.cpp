@@ -6,6 +6,8 @@
 #include "planner/formation/area_figure.hpp"
 #include "planner/formation/figure.hpp"
 #include "planner/formation/wave_figure.hpp"
+#include "planner/mesh/solid_sampling.hpp"
+#include "planner/mesh/solids.hpp"
 #include "planner/sampling/area_shapes.hpp"
 #include "planner/sampling/curve.hpp"
 #include "planner/sampling/sphere_points.hpp"
@@ -134,7 +136,13 @@ Figure spiral_figure(std::size_t drones, double turns) {
 
 Figure sphere_figure(std::size_t drones, const Run& run) {
     return {.extent = {1.0, 1.0, 1.0},
-            .points = [drones, run](const Vec3& scale) { return spread_on_ellipsoid(0.5 * scale, drones, run); }};
+            .points = [drones, run](const Vec3& scale) { return spread_on_ellipsoid(0.5 * scale, drones, run); },
+            .coverage =
+                [](const Vec3& scale, const Points& points) {
+                    TriangleMesh mesh = sphere_mesh();
+                    for (Vec3& p : mesh.vertices) p *= scale;
+                    return mean_distance(mesh, points);
+                }};
 }
 
 }  // namespace

@@ -153,6 +153,20 @@ TEST(Coverage, IsTheMeanDistanceOfTheAreasPlacesToTheNearestDrone) {
     EXPECT_GT(*formation.coverage_m[0], 0.3512 * std::sqrt(800.0 / 60 * 2 / std::sqrt(3.0)) * 0.85);
 }
 
+TEST(Coverage, ASpheresSkinIsItsPlaces) {
+    const Formation formation = built(part_of(shape(ShapeKind::sphere), 300, {30, 30, 30}));
+    ASSERT_TRUE(formation.coverage_m[0]);
+    double sum = 0.0;  // brute force over a golden spiral of places
+    for (int i = 0; i < 20'000; ++i) {
+        const double z = 1 - (2 * i + 1) / 20'000.0, angle = 2.399963229728653 * i, r = std::sqrt(1 - z * z);
+        const Vec3 place = 15.0 * Vec3(r * std::cos(angle), r * std::sin(angle), z);
+        double nearest = 1e300;
+        for (const Vec3& p : formation.points_m) nearest = std::min(nearest, glm::distance(p, place));
+        sum += nearest;
+    }
+    EXPECT_NEAR(*formation.coverage_m[0], sum / 20'000, 0.02 * sum / 20'000);
+}
+
 TEST(Coverage, LinesAndPointsHaveNone) {
     EXPECT_FALSE(built(part_of(shape(ShapeKind::circle), 20)).coverage_m[0]);
     EXPECT_FALSE(built(part_of(text("A"), 20)).coverage_m[0]);
