@@ -28,7 +28,7 @@ namespace aerogram::planner {
 /// is a wall of the tetrahedralisation; edges through any are left out all the same.
 /// Properties: (1) no edge passes through an obstacle (2) without an edge in the way it is obstacle_adjacency (3) only
 /// edges between drones that lost one are new.
-/// Errors: those of tetrahedralise_around; stopped. Cost: TetGen's, 10,000 drones about 1 s, and nothing without an
+/// Errors: those of tetrahedralise_around; stopped. Cost: TetGen's, 10,000 drones 0.5 s, and nothing without an
 /// edge in the way.
 Result<AdjacencyGraph> adjacency_around(std::span<const Vec3> drones_m, std::span<const ObstacleVertex> vertices,
                                         const std::vector<geo::Obstacle>& solids, const Run& run);
