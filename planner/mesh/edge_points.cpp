@@ -15,9 +15,9 @@ namespace {
 
 // Shares of a step: a point that near to an earlier one is left out; those that can slide may begin nearer.
 constexpr double kCornersApart = 0.85, kSlidersApart = 0.6;
-constexpr double kTooMany = 4.0;                    ///< times what may be: then nearness does not thin them out enough
-constexpr double kShortest = 0.96;                  ///< steps may be this share of a step to divide a line equally
-constexpr std::size_t kFarthestWork = 100'000'000;  ///< corners x points up to which the farthest are sought
+constexpr double kTooMany = 4.0;                   ///< times what may be: then nearness does not thin them out enough
+constexpr double kShortest = 0.96;                 ///< steps may be this share of a step to divide a line equally
+constexpr std::size_t kFarthestWork = 30'000'000;  ///< corners x points up to which the farthest are sought
 
 /// Places that keep a distance from each other, by cubes.
 class Accepted {
@@ -71,7 +71,12 @@ Points farthest(const Points& places, std::size_t count) {
 }  // namespace
 
 EdgePoints::EdgePoints(const TriangleMesh& mesh) : mesh_(mesh), edges_(sharp_edges_of(mesh)) {
-    for (const SharpLine& line : edges_.lines) tracks_.emplace_back(mesh, line);
+}
+
+void EdgePoints::measure_lines() {
+    if (!tracks_.empty()) return;
+    tracks_.reserve(edges_.lines.size());
+    for (const SharpLine& line : edges_.lines) tracks_.emplace_back(mesh_, line);
 }
 
 void EdgePoints::clear() {
@@ -86,9 +91,12 @@ void EdgePoints::add(const Vec3& at, std::optional<Slider> slider) {
 
 void EdgePoints::place_by_step(double step, bool lines, std::size_t most) {
     clear();
+    const double bearable = kTooMany * static_cast<double>(most);
+    if (static_cast<double>(lines ? edges_.lines.size() : edges_.tips.size()) > bearable) return;
+    if (lines) measure_lines();
     double wanted = 0.0;
     for (const LineTrack& track : tracks_) wanted += track.length() / step;
-    if (lines && wanted > kTooMany * static_cast<double>(most)) return;
+    if (lines && wanted > bearable) return;
     reach_ = 0.1 * step;
     Accepted accepted(kCornersApart * step);
     const auto stand = [&](const std::vector<std::uint32_t>& vertices) {
@@ -117,6 +125,7 @@ void EdgePoints::place_by_step(double step, bool lines, std::size_t most) {
 double EdgePoints::place(std::size_t count) {
     AEROGRAM_REQUIRE(!none());
     clear();
+    measure_lines();
     Points stations;
     std::vector<std::uint32_t> corners = edges_.tips;
     std::set_difference(edges_.corners.begin(), edges_.corners.end(), edges_.tips.begin(), edges_.tips.end(),

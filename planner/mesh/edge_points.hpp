@@ -14,6 +14,7 @@ class EdgePoints {
     explicit EdgePoints(const TriangleMesh& mesh);
 
     [[nodiscard]] bool none() const { return edges_.lines.empty(); }
+    [[nodiscard]] std::size_t lines() const { return edges_.lines.size(); }
 
     /// The corners, and equal steps of about `step` between them, without those nearer than half a step to another.
     /// @param lines  else only the corners where lines meet, and spikes. None where that would be more than `most`.
@@ -33,11 +34,12 @@ class EdgePoints {
         double along = 0.0;
     };
     void add(const Vec3& at, std::optional<Slider> slider);
+    void measure_lines();
 
     const TriangleMesh& mesh_;
     SharpEdges edges_;
-    std::vector<LineTrack> tracks_;
-    double reach_ = 0.0;  ///< over which a line's direction is taken
+    std::vector<LineTrack> tracks_;  ///< measured when they are needed
+    double reach_ = 0.0;             ///< over which a line's direction is taken
     Points points_;
     std::vector<std::optional<Slider>> sliders_;
 };

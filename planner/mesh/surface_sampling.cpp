@@ -9,7 +9,8 @@
 namespace aerogram::planner {
 namespace {
 
-constexpr double kFacing = 0.75;  ///< edges nearer to each other than this share of a step are drawn alternately
+constexpr double kFacing = 0.75;      ///< edges nearer to each other than this share of a step are drawn alternately
+constexpr double kCoincident = 1e-6;  ///< lines without length: nothing can slide apart
 constexpr std::size_t kSlideRounds = 200;
 
 }  // namespace
@@ -31,7 +32,8 @@ Points sample_edges(const TriangleMesh& mesh, std::size_t count) {
     const double step = on_edges.place(count);
     Points points = on_edges.points();
     const std::vector<double> reach(count, step);
-    if (smallest_share(points, reach) >= kFacing) return points;
+    const double nearest = smallest_share(points, reach);
+    if (on_edges.lines() > count || nearest >= kFacing || nearest < kCoincident) return points;
     const Ground ground{[&](std::size_t i) { return on_edges.freedom(i); },
                         [&](std::size_t i, const Vec3& wanted) { return on_edges.move(i, wanted); }};
     spread_apart(points, reach, ground, {}, kSlideRounds, {});
