@@ -63,7 +63,7 @@ void moved(const Points& formation_m, const Vec3& middle_m, const HoldMotion& mo
 
 Points after_hold(const Points& formation_m, const HoldMotion& motion, const std::vector<bool>& still) {
     Points out = formation_m;
-    if (motion.moves()) moved(formation_m, barycentre(formation_m, still), motion, still, 1.0, out.data());
+    if (motion.displaces()) moved(formation_m, barycentre(formation_m, still), motion, still, 1.0, out.data());
     return out;
 }
 

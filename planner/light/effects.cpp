@@ -22,10 +22,6 @@ double covered(double low, double begin, double length, double count) {
     return std::min(1.0, common(begin) + common(begin - count));
 }
 
-Rgb clamped(const Rgb& c) {
-    return {std::clamp(c.r, 0.0, 1.0), std::clamp(c.g, 0.0, 1.0), std::clamp(c.b, 0.0, 1.0)};
-}
-
 }  // namespace
 
 Rounds rounds_at(double since_s, double counted_at_s, double period_s) {

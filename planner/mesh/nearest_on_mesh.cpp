@@ -33,7 +33,7 @@ Rgb color_of(const MeshPlace& place, const TriangleMesh& mesh) {
         out.g += corner.g * place.shares[k];
         out.b += corner.b * place.shares[k];
     }
-    return out;
+    return clamped(out);
 }
 
 NearestOnMesh::NearestOnMesh(const TriangleMesh& mesh) : mesh_(mesh), order_(mesh.triangles.size()) {

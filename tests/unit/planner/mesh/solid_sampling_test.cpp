@@ -267,5 +267,18 @@ TEST(NearestOnMesh, ColoursAreThoseBetweenTheCorners) {
     EXPECT_NEAR(middle.b, 0.25, 1e-12);
 }
 
+/// missions/mesh.toml: white corners by shares that add up to 1 + 2e-16 made a lamp brighter than lamps are.
+TEST(NearestOnMesh, ColoursOfWhiteCornersAreNeverBrighterThanWhite) {
+    TriangleMesh triangle{{{0, 0, 0}, {1, 0, 0}, {0.3, 0.9, 0.1}}, {{0, 1, 2}}, std::vector<Rgb>(3, Rgb{1, 1, 1})};
+    const NearestOnMesh nearest(triangle);
+    Random random(4);
+    for (int i = 0; i < 2000; ++i) {
+        const Rgb c =
+            color_of(nearest.nearest({random.between(-1, 2), random.between(-1, 2), random.between(-1, 1)}), triangle);
+        EXPECT_TRUE(c.r <= 1.0 && c.g <= 1.0 && c.b <= 1.0);
+        EXPECT_GT(c.r, 1.0 - 1e-12);
+    }
+}
+
 }  // namespace
 }  // namespace aerogram::planner
