@@ -16,7 +16,10 @@ namespace aerogram::planner {
 namespace {
 
 constexpr std::size_t kRows = 63, kFineRows = 103;  ///< control rows of an act: 60 and 100 knot intervals
-constexpr std::size_t kFlowRowsPerLeg = 40;
+constexpr std::size_t kFlowRowsPerLeg = 40, kLeastFlowRowsPerLeg = 12;
+constexpr std::size_t kMostFlowRows = 10'000;
+constexpr std::size_t kMostFlowLegs = 600;
+constexpr double kStandsStill_m = 1e-6;
 /// Sideways motion stays this far above the minimum navigation altitude where the projection moves it.
 constexpr double kAboveFloor_m = 0.05;
 /// The projection keeps this far from fences, audiences and obstacles, so that neither its tolerance nor the curve
@@ -44,22 +47,27 @@ Band band_of(const Mission& mission, const Leg& leg) {
             std::max({pad_low->z + mission.limits.ceiling_m - kAboveFloor_m, from_high->z, to_high->z})};
 }
 
-/// Flown length over straight-line length, all drones together; 1 when nobody moves.
-double path_ratio(const Motion& motion) {
+/// Flown length over straight-line length, of flows from keyframe to keyframe, all drones together; 1 when nobody
+/// moves.
+/// @param met  knots at which keyframes are met, the last one included; empty: only at the end.
+double path_ratio(const Motion& motion, const std::vector<std::size_t>& met) {
     constexpr int kPieces = 4;  // chords a knot interval
     const std::size_t n = drone_count(motion), intervals = interval_count(motion);
     if (!std::holds_alternative<Lattice>(motion)) return 1.0;
     const Act act{"", ActRole::transit, Timing::free, 0, static_cast<Millis>(1000 * intervals), motion};
     Points before = start_positions(motion), now(n);
-    const Points from = before, to = end_positions(motion);
+    Points left = before;  // at the last keyframe
     double flown = 0.0, direct = 0.0;
     for (std::size_t step = 1; step <= intervals * kPieces; ++step) {
         positions(act, static_cast<double>(step) / kPieces, now);
         for (std::size_t i = 0; i < n; ++i) flown += glm::length(now[i] - before[i]);
         std::swap(before, now);
+        const bool meets = step % kPieces == 0 && std::ranges::find(met, step / kPieces) != met.end();
+        if (!meets && step < intervals * kPieces) continue;
+        for (std::size_t i = 0; i < n; ++i) direct += glm::length(before[i] - left[i]);
+        left = before;
     }
-    for (std::size_t i = 0; i < n; ++i) direct += glm::length(to[i] - from[i]);
-    return direct > 0.0 ? flown / direct : 1.0;
+    return direct > kStandsStill_m * static_cast<double>(n) ? flown / direct : 1.0;
 }
 
 Result<Flow> flow_of(const Mission& mission, const Route& route, const Leg& leg, const Run& run) {
@@ -77,7 +85,13 @@ Result<Flow> flow_of(const Mission& mission, const Route& route, const Leg& leg,
         const Arrive& how = mission.keyframes[k].arrive;
         legs.push_back({how.flow, how.duration_s});
     }
-    return flow_transition(keyframes, legs, leg.how.spectral, kFlowRowsPerLeg, run);
+    if (legs.size() > kMostFlowLegs)
+        return Error{ErrorCode::invalid_input,
+                     mission.at(leg.how.line, keyframe_key(mission, leg.last) + ".arrive: a flow of " +
+                                                  std::to_string(legs.size()) + " keyframes; at most " +
+                                                  std::to_string(kMostFlowLegs) + ": hold one of them for a moment")};
+    const std::size_t rows = std::clamp(kMostFlowRows / legs.size(), kLeastFlowRowsPerLeg, kFlowRowsPerLeg);
+    return flow_transition(keyframes, legs, leg.how.spectral, rows, run);
 }
 
 std::string joined(const std::vector<std::string>& rungs) {
@@ -273,7 +287,7 @@ class Planner {
 
     Result<LegMotion> finished() {
         result_.shortest = shortest_duration(result_.motion, mission_.limits);
-        result_.report.path_ratio = path_ratio(result_.motion);
+        result_.report.path_ratio = path_ratio(result_.motion, result_.keyframe_knots);
         return std::move(result_);
     }
 

@@ -143,9 +143,12 @@ Result<Flown> plan_standing(const Mission& mission, const Run& run) {
 Error refusal(const Mission& mission, const Certificate& certificate) {
     std::string message = mission.file.string() + ": this show cannot be flown within its limits";
     for (const std::string& violation : certificate.violations) message += "\n  " + violation;
+    bool obstructed = false;
     for (const ActCertificate& act : certificate.acts) {
         for (const std::string& violation : act.violations) message += "\n  " + violation;
+        obstructed |= act.method != "steered" && act.obstacle_margin_m.value_or(0.0) < 0.0;
     }
+    if (obstructed) message += "\n  (arrive.method = \"steered\" leads groups around obstacles)";
     return {ErrorCode::infeasible, message};
 }
 

@@ -9,6 +9,7 @@
 #include "geo/units.hpp"
 #include "planner/hold_motion.hpp"
 #include "planner/motion/timing.hpp"
+#include "planner/sampling/closest_pair.hpp"
 
 namespace aerogram::planner {
 namespace {
@@ -69,6 +70,13 @@ class Builder {
         Millis duration_ms = shortest_ms;
         if (motion.wanted_s) {
             duration_ms = milliseconds(*motion.wanted_s);
+            if (duration_ms < shortest_ms && !keyframe.clip.empty()) {
+                return Error{ErrorCode::invalid_input,
+                             mission_.at(keyframe.line, key + ".animation.duration_s: the frames take " +
+                                                            number(*motion.wanted_s) +
+                                                            " s in all: must be >= " + rounded_up_s(shortest_ms) +
+                                                            " (set by " + motion.shortest.set_by + ")")};
+            }
             if (duration_ms < shortest_ms) {
                 return Error{ErrorCode::invalid_input,
                              mission_.at(keyframe.arrive.line,
@@ -116,18 +124,38 @@ class Builder {
         standing.stands_to_ms = arrival_ms + hold_ms;
         if (hold_ms == 0) return Done{};
         const HoldMotion& moves = mission_.keyframes[leg.last].motion;
+        if (auto roomy = keeps_room(leg, moves); !roomy) return roomy.error();
         Motion hold = moves.moves() ? Motion(hold_lattice(leg.to_m, moves, route_.stops[leg.last].still))
                                     : Motion(Hold{leg.to_m});
         const ShortestDuration shortest = shortest_duration(hold, mission_.limits);
         if (hold_ms < shortest.duration_ms) {
             return Error{ErrorCode::invalid_input,
                          mission_.at(mission_.keyframes[leg.last].line,
-                                     keyframe_key(mission_, leg.last) + ".hold_s = " + number(seconds_from_ms(hold_ms)) +
-                                         ": its motion needs >= " + rounded_up_s(shortest.duration_ms) + " (set by " +
-                                         shortest.set_by + ")")};
+                                     keyframe_key(mission_, leg.last) +
+                                         ".hold_s = " + number(seconds_from_ms(hold_ms)) + ": its motion needs >= " +
+                                         rounded_up_s(shortest.duration_ms) + " (set by " + shortest.set_by + ")")};
         }
         append({standing.name, ActRole::hold, Timing::fixed, 0, hold_ms, std::move(hold)}, std::nullopt);
         return Done{};
+    }
+
+    /// A formation that shrinks must still keep the separation.
+    [[nodiscard]] Status keeps_room(const Leg& leg, const HoldMotion& moves) const {
+        Points moving_m;
+        const std::vector<bool>& still = route_.stops[leg.last].still;
+        for (std::size_t d = 0; d < leg.to_m.size(); ++d)
+            if (still.empty() || !still[d]) moving_m.push_back(leg.to_m[d]);
+        if (moves.scale >= 1.0 || moving_m.size() < 2) return Done{};
+        const double spacing_m = closest_pair(moving_m, {mission_.limits.downwash}).distance_m;
+        const double needed_m = planned_separation_m(mission_.limits);
+        if (spacing_m * moves.scale >= needed_m) return Done{};
+        std::ostringstream least;
+        least << std::setprecision(3) << std::ceil(needed_m / spacing_m * 1000.0) / 1000.0;
+        return Error{ErrorCode::invalid_input,
+                     mission_.at(mission_.keyframes[leg.last].line,
+                                 keyframe_key(mission_, leg.last) + ".motion.scale = " + number(moves.scale) +
+                                     ": brings drones closer than " + number(needed_m) +
+                                     " m; must be >= " + least.str() + ", or the formation larger")};
     }
 
     const Mission& mission_;

@@ -58,6 +58,15 @@ Points divided(Points points, const Vec3& scale) {
     return points;
 }
 
+/// An area with a depth: its mission may say it as depth_m.
+bool is_extruded(const Source& source) {
+    const auto* text = std::get_if<TextSource>(&source);
+    const auto* svg = std::get_if<SvgSource>(&source);
+    const auto* shape = std::get_if<ShapeSource>(&source);
+    return (text && text->style == TextStyle::solid) || (svg && svg->style == SvgStyle::solid) ||
+           (shape && shape->area_style == AreaStyle::solid) || std::holds_alternative<SketchSource>(source);
+}
+
 class Builder {
   public:
     Builder(const Mission& mission, std::size_t index, const Run& run)
@@ -171,8 +180,10 @@ class Builder {
         } else if (part.spacing_of(part.drawn.points_m) <= 0.0) {
             problem(part.ref, too_close + "; no size_m can part points in the same place");
         } else {
+            const bool extruded = part.figure.extent.y > 0.0 && is_extruded(part.ref.part.source);
             problem(part.ref, ".size_m" + too_close + "; needs size_m >= " +
-                                  needed_size(at_any_size(part), part.drawn, wanted_m, part.spacing_of));
+                                  needed_size(at_any_size(part), part.drawn, wanted_m, part.spacing_of) +
+                                  (extruded ? " instead of a depth_m" : ""));
         }
     }
 
@@ -205,6 +216,13 @@ class Builder {
                        std::to_string(SlotId(static_cast<std::size_t>(place - out_.points_m.begin())).number()) +
                        " stands at z = " + floored(place->z) + " m, ";
             };
+            if (high->z - low->z > high_m - low_m + kAltitudeTolerance_m) {
+                problem(part.ref, ".size_m: stands " + shortest(std::ceil((high->z - low->z) * 10.0 - 1e-9) / 10.0) +
+                                      " m high; at most " + shortest(high_m - low_m) +
+                                      " m fit between min_navigation_altitude_m = " + shortest(low_m) +
+                                      " and ceiling_m = " + shortest(high_m));
+                continue;
+            }
             if (low->z < low_m - kAltitudeTolerance_m) {
                 problem(part.ref, slot_at(low) + "below min_navigation_altitude_m = " + shortest(low_m) +
                                       "; raise it by " + shortest(std::ceil((low_m - low->z) * 10.0 - 1e-9) / 10.0) +

@@ -34,6 +34,23 @@ bool spans_something(const Light& light) {
            (light.effect == LightEffect::gradient && !light.in_time);
 }
 
+/// Places that span a volume: a box's corners, or a ball's ends along the axes and along `direction`.
+Points ends_of(const LightVolume& volume, const Vec3& direction) {
+    Points out;
+    if (volume.size_m) {
+        for (int corner = 0; corner < 8; ++corner) {
+            const Vec3 sign((corner & 1) ? 0.5 : -0.5, (corner & 2) ? 0.5 : -0.5, (corner & 4) ? 0.5 : -0.5);
+            out.push_back(volume.center_m + sign * *volume.size_m);
+        }
+        return out;
+    }
+    for (const Vec3& way : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}, direction}) {
+        out.push_back(volume.center_m + volume.radius_m.value_or(0.0) * way);
+        out.push_back(volume.center_m - volume.radius_m.value_or(0.0) * way);
+    }
+    return out;
+}
+
 Vec3 unit(const Vec3& v, const Vec3& otherwise) {
     const double length = glm::length(v);
     return length > 0.0 ? v / length : otherwise;
@@ -74,6 +91,10 @@ LightPlaces::LightPlaces(const Mission& mission, std::size_t light, const LightS
     if (!light_.keyframe.empty()) {
         for (std::size_t k = range_.first; k <= range_.last; ++k)
             extents_.push_back(extent_of(members_at(k, [&](DroneId d) { return local_m(d, k); })));
+        return;
+    }
+    if (light_.volume && light_.effect != LightEffect::image) {  // stands in the show: drones pass through it
+        extents_.assign(times_ms.size(), extent_of(ends_of(*light_.volume, axis_)));
         return;
     }
     extents_.resize(times_ms.size());

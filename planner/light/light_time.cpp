@@ -114,16 +114,21 @@ Result<LightTime> light_time(const Mission& mission, std::size_t index, const Li
     time.lit = {std::max(time.own.from_ms, lamps.from_ms), std::min(time.gone_at_ms, lamps.to_ms)};
     if (time.lit.from_ms < time.lit.to_ms) return time;
     const std::string key = "light[" + std::to_string(index + 1) + "]";
-    const bool empty = time.own.from_ms >= time.own.to_ms;
-    return Error{
-        ErrorCode::invalid_input,
-        mission.at(light.line,
-                   key + (empty ? ": ends before it begins, at " : ": is over before lamps shine, at ") +
-                       seconds(time.own.to_ms) + " s of the show; lamps shine from " + seconds(lamps.from_ms) + " to " +
-                       seconds(lamps.to_ms) + " s" +
-                       (over_show ? ""
-                                  : ", and \"" + light.keyframe + "\" stands from " + seconds(first.stands_from_ms) +
-                                        " to " + seconds(last.stands_to_ms) + " s"))};
+    const bool empty = time.own.from_ms >= time.own.to_ms, late = time.own.from_ms >= lamps.to_ms;
+    const bool passed = !over_show && first.stands_from_ms == last.stands_to_ms && !light.duration_s;
+    const std::string what = late ? ": begins after the lamps' last light, at " + seconds(time.own.from_ms)
+                             : passed
+                                 ? ": its keyframe is passed without a stop; write a duration_s. It is passed at " +
+                                       seconds(first.stands_from_ms)
+                             : empty ? ": ends before it begins, at " + seconds(time.own.to_ms)
+                                     : ": is over before lamps shine, at " + seconds(time.own.to_ms);
+    return Error{ErrorCode::invalid_input,
+                 mission.at(light.line, key + what + " s of the show; lamps shine from " + seconds(lamps.from_ms) +
+                                            " to " + seconds(lamps.to_ms) + " s" +
+                                            (over_show ? ""
+                                                       : ", and \"" + light.keyframe + "\" stands from " +
+                                                             seconds(first.stands_from_ms) + " to " +
+                                                             seconds(last.stands_to_ms) + " s"))};
 }
 
 Passage passage_at(const LightStage& stage, const KeyframeRange& range, Millis time_ms) {

@@ -107,6 +107,12 @@ void read_parameters(TableReader& in, Light& out) {
     out.share = in.number("share", {0.0, 1.0, true}).value_or(out.share);
     out.radial = in.flag("radial").value_or(false);
     out.in_time = in.flag("in_time").value_or(false);
+    if (in.has("direction") && out.radial) in.bad("direction", "stands beside radial; must be one of the two");
+    if (in.has("direction") && out.in_time) in.bad("direction", "a gradient in time has no direction");
+    if (out.effect == image) {
+        for (const std::string_view key : {"color", "colors"})
+            if (in.has(key)) in.bad(key, "a picture brings its own colours");
+    }
     out.images = read_images(in);
     if (out.effect == image && !in.has("image") && !in.has("images")) in.need("image", "write image = \"flag.png\"");
     if (const auto size_m = in.numbers("image_size_m", 2, 2, "[width, height], each > 0", more_than(0.0, 10000.0)))

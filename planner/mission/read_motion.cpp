@@ -35,16 +35,19 @@ HoldMotion read_motion(TableReader& in) {
 
 std::vector<Keyframe> frames_of(const Keyframe& keyframe, const Animation& animation) {
     std::vector<Keyframe> out;
-    const std::size_t count = animation.frames * animation.repeat;
+    // A clip's last instant is where its next pass begins; numbered files are all different.
+    const bool shared = std::holds_alternative<MeshSource>(keyframe.parts.front().source);
+    const std::size_t pass = animation.frames - (shared ? 1 : 0);
+    const std::size_t count = animation.repeat * pass + (shared ? 1 : 0);
+    const auto instant = [&](std::size_t f) { return shared && f > 0 ? (f - 1) % pass + 1 : f % animation.frames; };
     for (std::size_t f = 0; f < count; ++f) {
         Keyframe frame = keyframe;
         frame.clip = keyframe.name;
         frame.name = keyframe.name + " " + std::to_string(f + 1);
         for (Part& part : frame.parts) {
-            if (auto* svg = std::get_if<SvgSource>(&part.source); svg && svg->frame)
-                svg->frame->index = f % animation.frames;
+            if (auto* svg = std::get_if<SvgSource>(&part.source); svg && svg->frame) svg->frame->index = instant(f);
             if (auto* mesh = std::get_if<MeshSource>(&part.source); mesh && mesh->frame)
-                mesh->frame->index = f % animation.frames;
+                mesh->frame->index = instant(f);
         }
         if (f > 0) {
             frame.at_s.reset();

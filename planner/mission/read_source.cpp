@@ -8,6 +8,7 @@ namespace aerogram::planner {
 namespace {
 
 constexpr std::array<std::string_view, 7> kSources{"text", "svg", "image", "mesh", "csv", "shape", "sketch"};
+constexpr std::size_t kMostFrames = 600;
 constexpr std::string_view kAnyImage = "a PNG or JPEG file";
 
 bool is_font_file(std::string_view font) {
@@ -51,8 +52,10 @@ std::optional<Animation> read_animation(TableReader& source, bool is_part, bool 
     if (is_part) source.bad("animation", "belongs to a keyframe without parts");
     Animation out;
     in->need("frames", "write how many keyframes show it: frames = 8");
-    out.frames = static_cast<std::size_t>(in->integer("frames", 2, 1000).value_or(2));
-    out.repeat = static_cast<std::size_t>(in->integer("repeat", 1, 1000).value_or(1));
+    out.frames = static_cast<std::size_t>(in->integer("frames", 2, 600).value_or(2));
+    out.repeat = static_cast<std::size_t>(in->integer("repeat", 1, 600).value_or(1));
+    if (out.frames * out.repeat > kMostFrames)
+        in->bad("repeat", "frames times repeat must be <= " + std::to_string(kMostFrames) + ": all are flown as one");
     out.duration_s = in->number("duration_s", more_than(0.0, 86400.0));
     out.clip = in->text("clip").value_or("");
     if (!clips && in->has("clip")) in->bad("clip", "only meshes have clips; numbered SVGs are one");

@@ -14,11 +14,13 @@ constexpr double kRim = 1.5;    ///< few points stand mostly on the rim: this / 
 constexpr double kStep = 0.45;  ///< share of an overlap that one point yields
 
 /// Stays where the area is: a move that would leave it goes along one axis, or not at all. Half covered cells and those
-/// that are covered no less than where the point stands belong to it.
+/// that are covered no less than where the point stands belong to it. A point outside (the middle of a cell of a bent
+/// area may be) only moves in.
 Vec2 kept_within(const DensityRaster& within, const Vec2& from, const Vec2& to) {
     const float least = std::min(0.5F, within.at(from));
     for (const Vec2& p : {to, Vec2(to.x, from.y), Vec2(from.x, to.y)}) {
-        if (within.at(p) >= least) return p;
+        const float there = within.at(p);
+        if (there >= least && there > 0.0F) return p;
     }
     return from;
 }

@@ -13,13 +13,13 @@ namespace {
 
 constexpr std::size_t kPairsAPiece = 2048, kDronesAPiece = 64;
 constexpr std::size_t kDronesABlock = SobolevSmoother::kLanes / 3;
-constexpr double kFullGain = 2.0;      ///< what the limits' weights reckon with (projection.cpp)
-constexpr double kRelaxation = 0.9;    ///< of pushes that act on one drone alone
-constexpr double kIntoBand_m = 0.02;   ///< aimed at inside the band
-constexpr double kAtLimit = 1.003;     ///< differences up to this share of their limit are left alone
-constexpr double kLongestStep = 0.12;  ///< of the required separation
-constexpr std::size_t kMostIntervals = 1024;
-constexpr std::size_t kReadBeyond = 4;  ///< places that closest_approaches may read behind the last sample
+constexpr double kFullGain = 2.0;               ///< what the limits' weights reckon with (projection.cpp)
+constexpr double kRelaxation = 0.9;             ///< of pushes that act on one drone alone
+constexpr double kIntoBand_m = 0.02;            ///< aimed at inside the band
+constexpr double kAtLimit = 1.003;              ///< differences up to this share of their limit are left alone
+constexpr double kLongestStep = 0.12;           ///< of the required separation
+constexpr std::size_t kMostIntervals = 16'384;  ///< a flow of 600 keyframes has 10,000
+constexpr std::size_t kReadBeyond = 4;          ///< places that closest_approaches may read behind the last sample
 
 /// How far a drone moved on each knot interval: the farthest of the interval's instants, both ends included.
 void farthest_by_interval(const double* before, const double* after, const Sampling& sampling, double* by_interval_m) {

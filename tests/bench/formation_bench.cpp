@@ -1,5 +1,5 @@
-// Formations: letters, a sphere, a helix, a grid, and areas (a star of 10,000 is to take at most 2 s). Each run checks
-// the number of slots and their smallest spacing.
+// Formations: letters, a sphere, a helix, a grid, areas, skins and volumes (10,000 drones are to take at most 2 s).
+// Each run checks the number of slots and their smallest spacing.
 #include <benchmark/benchmark.h>
 
 #include "planner/formation/formation.hpp"
@@ -48,12 +48,22 @@ void formation_of_disc_outline(benchmark::State& state) {
     source.area_style = AreaStyle::outline;
     measure(state, source);
 }
+void formation_of_torus(benchmark::State& state) {
+    measure(state, shape(ShapeKind::torus));
+}
+void formation_of_cube_volume(benchmark::State& state) {
+    ShapeSource source = shape(ShapeKind::cube);
+    source.solid_style = SolidStyle::volume;
+    measure(state, source);
+}
 
 BENCHMARK(formation_of_text)->Arg(10)->Arg(60)->Arg(300)->Unit(benchmark::kMillisecond);
 BENCHMARK(formation_of_sphere)->Arg(10)->Arg(60)->Arg(300)->Unit(benchmark::kMillisecond);
 BENCHMARK(formation_of_helix)->Arg(10)->Arg(60)->Arg(300)->Unit(benchmark::kMillisecond);
 BENCHMARK(formation_of_grid)->Arg(10)->Arg(60)->Arg(300)->Unit(benchmark::kMillisecond);
 BENCHMARK(formation_of_star)->Arg(300)->Arg(10'000)->Unit(benchmark::kMillisecond);
+BENCHMARK(formation_of_torus)->Arg(300)->Arg(10'000)->Unit(benchmark::kMillisecond);
+BENCHMARK(formation_of_cube_volume)->Arg(300)->Arg(10'000)->Unit(benchmark::kMillisecond);
 BENCHMARK(formation_of_disc_outline)->Arg(300)->Unit(benchmark::kMillisecond);
 
 }  // namespace

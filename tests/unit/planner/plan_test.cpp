@@ -19,6 +19,15 @@ const std::string kTwo = keyframe("a", "circle") + keyframe("b", "helix", "arriv
 const std::string kCrossing =
     keyframe("a", "line") + keyframe("b", "line", kHalfTurn + "arrive = { assign = \"keep\", separation = \"none\" }");
 
+TEST(Plan, AFormationThatShrinksTooFarIsToldHowFarItMay) {
+    const auto refused =
+        plan(show_of(keyframe("a", "grid", "hold_s = 20\nmotion = { scale = 0.5 }")), {}, aerogram::Run{});
+    ASSERT_FALSE(refused.ok());
+    EXPECT_EQ(refused.error().code, ErrorCode::invalid_input);
+    EXPECT_THAT(refused.error().message, ::testing::HasSubstr("motion.scale = 0.5: brings drones closer than 1.55 m"));
+    EXPECT_THAT(refused.error().message, ::testing::HasSubstr("must be >= 0.70"));
+}
+
 TEST(Plan, ASoundMissionIsCertifiedActByAct) {
     const Mission mission = show_of(kTwo + "[[cue]]\nname = \"go\"\nat_s = 5\n");
     const auto plan = planner::plan(mission, {}, aerogram::Run{});

@@ -135,6 +135,16 @@ TEST(Animations, FramesAreFlownAsOneFlowInWhichDronesKeepTheirSlots) {
     EXPECT_EQ(m->lights.at(0).keyframe, "k");
 }
 
+/// A clip's passes share the instant where one ends and the next begins: no leg on which nothing moves.
+TEST(Animations, PassesOfAMeshsClipShareTheirEnds) {
+    const auto m = parsed("mesh = \"a.obj\"\nsize_m = [20]\nanimation = { frames = 3, repeat = 2 }");
+    ASSERT_TRUE(m.ok()) << why(m);
+    std::vector<std::size_t> shown;
+    for (const Keyframe& frame : m->keyframes)
+        shown.push_back(std::get<MeshSource>(frame.parts[0].source).frame->index);
+    EXPECT_THAT(shown, ElementsAre(0, 1, 2, 1, 2));
+}
+
 TEST(Animations, NoKeyframeIsCalledLikeAFrame) {
     const auto m = parsed("svg = \"walk-1.svg\"\nsize_m = [20]\nanimation = { frames = 2 }",
                           "[[keyframe]]\nname = \"k 2\"\nshape = \"line\"\n");

@@ -280,5 +280,17 @@ TEST(SlideApart, PointsOfNeighbouringLinesComeToStandAlternately) {
     EXPECT_GT(brute_smallest(slide_apart(two, points, 1.0, 300)), 0.45);
 }
 
+/// A drawing of 20 drones had one of them 7.5 m outside of its box: points that began outside went where they liked.
+TEST(PushApart, PointsThatBeginOutsideOnlyMoveIn) {
+    DensityRaster raster{10, 10, {0, 0}, 1.0, std::vector<float>(100, 0.0F)};
+    for (std::size_t row = 0; row < 10; ++row)
+        for (std::size_t column = 0; column < 4; ++column) raster.mass[row * 10 + column] = 1.0F;
+    std::vector<Vec2> points{{4.3, 5.0}, {3.6, 5.1}, {3.4, 4.6}, {3.7, 5.6}};
+    push_apart(points, 0, raster, 4.0, 60, {});
+    EXPECT_LE(points[0].x, 4.3);
+    for (const Vec2& p : points)
+        EXPECT_TRUE(p.x >= 0.0 && p.x <= 4.3 && p.y >= 0.0 && p.y <= 10.0) << p.x << ' ' << p.y;
+}
+
 }  // namespace
 }  // namespace aerogram::planner::testing
