@@ -48,10 +48,13 @@ preset = "standard"            # "dense", "standard", "conservative" or "indoor"
 
 [[keyframe]]
 name = "H"
-text = "H"                     # or csv = "points.csv", or shape = "line", "grid", "circle", "sphere", "helix"
+# Or svg = "logo.svg", image = "flag.png", mesh = "cat.obj", csv = "points.csv", sketch = [...], or shape = "line", "circle",
+# "spiral", "grid", "disc", "ring", "square", "polygon", "star", "heart", "wave", "helix", "sphere", "dome", "cube", "torus",
+# "cylinder", "cone": docs/formations.md. `aerogram inspect` draws a formation before anything is planned.
+text = "H"
 size_m = [12, 16]              # width, height
 center_m = [0, 0, 40]
-color = "#ffc400"
+color = "#ffc400"              # or a gradient, a palette, a picture; effects in time are [[light]]s: docs/lights.md
 hold_s = 5
 
 [[keyframe]]
@@ -63,8 +66,8 @@ color = "#40c4ff"
 hold_s = 5
 
 [keyframe.arrive]              # how the fleet gets to "I"
-method = "straight"            # "straight", "spectral" or "flow"
-assign = "shortest"            # "shortest", "keep" or "groups"
+method = "straight"            # or "spectral", "rigid", "flow", "steered", "auto": docs/transitions.md
+assign = "shortest"            # or "bottleneck", "keep", "slots", "groups", "formation_coordinates"
 )";
 
 }  // namespace
