@@ -31,8 +31,12 @@ class Finish {
                                  std::to_string(kPointsAtMost) + " points; simplify the drawing"};
             }
         }
-        if (out_.shapes.empty()) return Error{ErrorCode::invalid_input, "line 1: draws nothing that can be shown"};
         out_.warnings = warnings_.messages();
+        if (out_.shapes.empty()) {
+            return Error{ErrorCode::invalid_input, out_.warnings.empty()
+                                                       ? "line 1: draws nothing that can be shown"
+                                                       : out_.warnings.front() + "; nothing else is drawn"};
+        }
         return std::move(out_);
     }
 

@@ -187,11 +187,11 @@ class Builder {
         }
     }
 
-    /// A part's figure for other sizes than its own: brush strokes are in metres, so where they are depends on the
-    /// size.
+    /// A part's figure for other sizes than its own: brush strokes are in metres, and an extruded area's points depend
+    /// on its proportions, so it is drawn anew.
     Figure at_any_size(const PlacedPart& placed) const {
         Figure out = placed.figure;
-        if (placed.ref.part.density.brush.empty()) return out;
+        if (placed.ref.part.density.brush.empty() && !is_extruded(placed.ref.part.source)) return out;
         out.points = [this, &placed](const Vec3& scale) {
             const Vec3 size_m = placed.figure.extent * scale;
             const auto side = [&](int axis) { return size_m[axis] > 0.0 ? std::optional(size_m[axis]) : std::nullopt; };

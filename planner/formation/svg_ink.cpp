@@ -12,6 +12,7 @@ constexpr double kPaperShare = 0.98;      ///< of the page
 constexpr double kPaperLuminance = 0.9;   ///< at least
 constexpr double kBlackLuminance = 0.01;  ///< at most
 constexpr double kColoured = 0.05;        ///< difference of channels
+constexpr double kLeastArea = 1e-9;       ///< of a fill, of the squared page: less is a line drawn as an area
 constexpr double kDim = 1.0 / 6.0;
 constexpr std::size_t kLayersAtMost = 20'000;
 constexpr std::size_t kPointsAtMost = 20'000'000;  ///< of areas that are cut out of others
@@ -118,6 +119,9 @@ bool hide_all(std::vector<InkLayer>& layers) {
 
 Ink ink_of(const Drawing& drawing) {
     Ink ink;
+    const Vec2 view = drawing.view_high - drawing.view_low;
+    const double page = std::max(view.x, view.y);
+    bool without_area = false;
     for (std::size_t s = 0; s < drawing.shapes.size(); ++s) {
         const DrawnShape& shape = drawing.shapes[s];
         InkLayer layer;
@@ -138,7 +142,13 @@ Ink ink_of(const Drawing& drawing) {
             layer.area = stroked(lines, shape.stroke_width);
             if (auto area = simplified(layer.area, FillRule::nonzero)) layer.area = std::move(*area);
         }
-        if (!layer.area.contours.empty()) ink.layers.push_back(std::move(layer));
+        if (layer.area.contours.empty()) continue;
+        if (layer.lines.lines.empty() && area_of(layer.area) <= kLeastArea * page * page) {
+            if (!without_area) say(ink.note, "fills without an area are left out");
+            without_area = true;
+            continue;
+        }
+        ink.layers.push_back(std::move(layer));
     }
     if (begins_with_paper(drawing, ink.layers)) {
         ink.layers.erase(ink.layers.begin());

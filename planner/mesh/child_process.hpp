@@ -12,8 +12,8 @@ namespace aerogram::planner {
 struct ChildLimits {
     std::size_t memory_bytes = std::size_t{3} << 30U;  ///< beyond what this process has mapped already
     std::size_t result_bytes = std::size_t{1} << 30U;
-    unsigned cpu_s = 300;    ///< processor time
-    unsigned wall_s = 1200;  ///< on the clock of the wall; catches a child that sleeps
+    unsigned cpu_s = 120;    ///< processor time
+    unsigned wall_s = 480;   ///< on the clock of the wall; catches a child that sleeps
 };
 
 /// The result of `work`, run in a child process, so that whatever a library does there (abort, invalid access, exit,

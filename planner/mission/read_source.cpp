@@ -52,7 +52,7 @@ std::optional<Animation> read_animation(TableReader& source, bool is_part, bool 
     if (is_part) source.bad("animation", "belongs to a keyframe without parts");
     Animation out;
     in->need("frames", "write how many keyframes show it: frames = 8");
-    out.frames = static_cast<std::size_t>(in->integer("frames", 2, 600).value_or(2));
+    out.frames = static_cast<std::size_t>(in->integer("frames", 2, 100).value_or(2));
     out.repeat = static_cast<std::size_t>(in->integer("repeat", 1, 600).value_or(1));
     if (out.frames * out.repeat > kMostFrames)
         in->bad("repeat", "frames times repeat must be <= " + std::to_string(kMostFrames) + ": all are flown as one");

@@ -63,6 +63,29 @@ constexpr const char* kFlag =
     "<rect x='10' y='10' width='80' height='60' fill='#00f'/><circle cx='50' cy='40' r='20' fill='#ff0'/>"
     "<path d='M10 85H90' fill='none' stroke='#f00' stroke-width='2'/>";
 
+/// A fill of no area made the spacing shrink without end.
+TEST(SvgFigure, FillsWithoutAnAreaAreLeftOut) {
+    const char* needle = "<path d='M10 10L60 35L90 50Z' fill='#f00'/>";
+    EXPECT_THAT(fault(svg(drawn("needle", needle))), HasSubstr("shows nothing that is lit"));
+    const Figure f = figure(svg(drawn("needle-and-disc", std::string(needle) + kFlag)), 40);
+    EXPECT_EQ(f.points(Vec3(1.0)).size(), 40U);
+    EXPECT_THAT(f.note, HasSubstr("fills without an area are left out"));
+}
+
+/// Drones of filled drawings stood in their holes and beyond their edges.
+TEST(SvgFigure, DronesStandOnTheRingNotInItsHole) {
+    const fs::path file = drawn("frame", "<path fill='#f00' d='M0 0H100V100H0ZM20 20V80H80V20Z'/>");
+    for (const std::size_t n : {16U, 30U, 60U, 300U, 1000U}) {
+        const Figure f = figure(svg(file), n);
+        const double spacing = std::sqrt(6400.0 / static_cast<double>(n));
+        for (const Vec3& p : f.points(Vec3(1.0))) {
+            const double out = std::max(std::abs(p.x), std::abs(p.z));
+            EXPECT_LT(out, 50.0 + 0.2 * spacing) << n;
+            EXPECT_GT(out, 30.0 - 0.2 * spacing) << n;
+        }
+    }
+}
+
 TEST(SvgFigure, EveryCountIsExactInEveryStyle) {
     const fs::path file = drawn("flag", kFlag);
     for (const SvgStyle style : {SvgStyle::drawn, SvgStyle::outline, SvgStyle::fill}) {
