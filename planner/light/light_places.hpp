@@ -19,7 +19,7 @@ struct Extent {
 ///
 /// With a keyframe: the formation's own slots, around its barycentre and along the axes of the mission (a carrier that
 /// turns is turned back), from one frame of an animation to the next by straight lines. Without: where the plan has the
-/// drones, show frame. Spare drones do not count.
+/// drones, show frame; sweeps and gradients with a volume stand in that. Spare drones do not count.
 class LightPlaces {
   public:
     /// @param times_ms  ascending: when the light is asked for what it spans.

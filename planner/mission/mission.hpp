@@ -308,7 +308,7 @@ struct Light {
     double opacity = 1.0;  ///< [0, 1]
     double fade_in_s = 0.0, fade_out_s = 0.0;
     std::optional<std::size_t> group;   ///< made for its drones alone, whom it spans: index into Mission::groups
-    std::optional<LightVolume> volume;  ///< a mask: the effect spans the fleet or group all the same
+    std::optional<LightVolume> volume;  ///< a mask; without keyframe, sweeps and gradients span it
     std::optional<Vec3>
         direction;          ///< sweep, gradient: where they run (absent: x); chase: along it (absent: by slot number)
     double width_m = 5.0;   ///< sweep: of the band that runs through

@@ -13,18 +13,17 @@ namespace {
 
 constexpr std::size_t kPairsAPiece = 2048, kDronesAPiece = 64;
 constexpr std::size_t kDronesABlock = SobolevSmoother::kLanes / 3;
-constexpr double kFullGain = 2.0;               ///< what the limits' weights reckon with (projection.cpp)
-constexpr double kRelaxation = 0.9;             ///< of pushes that act on one drone alone
-constexpr double kIntoBand_m = 0.02;            ///< aimed at inside the band
-constexpr double kAtLimit = 1.003;              ///< differences up to this share of their limit are left alone
-constexpr double kLongestStep = 0.12;           ///< of the required separation
-constexpr std::size_t kMostIntervals = 16'384;  ///< a flow of 600 keyframes has 10,000
-constexpr std::size_t kReadBeyond = 4;          ///< places that closest_approaches may read behind the last sample
+constexpr double kFullGain = 2.0;       ///< what the limits' weights reckon with (projection.cpp)
+constexpr double kRelaxation = 0.9;     ///< of pushes that act on one drone alone
+constexpr double kIntoBand_m = 0.02;    ///< aimed at inside the band
+constexpr double kAtLimit = 1.003;      ///< differences up to this share of their limit are left alone
+constexpr double kLongestStep = 0.12;   ///< of the required separation
+constexpr std::size_t kReadBeyond = 4;  ///< places that closest_approaches may read behind the last sample
 
 /// How far a drone moved on each knot interval: the farthest of the interval's instants, both ends included.
 void farthest_by_interval(const double* before, const double* after, const Sampling& sampling, double* by_interval_m) {
     const std::size_t intervals = sampling.intervals(), axis = sampling.axis_stride();
-    std::array<double, kMostIntervals + 1> squared;
+    std::array<double, kMostRows + 1> squared;
     std::fill_n(by_interval_m, intervals, 0.0);
     for (std::size_t q = 0; q < sampling.per_interval(); ++q) {
         const std::size_t at = sampling.before(q);
@@ -51,7 +50,7 @@ FleetState::FleetState(const Lattice& input, const ProjectionTask& task)
       longest_step_m_(kLongestStep * task.required_m),
       banded_(input.rows(), true) {
     const std::size_t n = input.drones, rows = input.rows();
-    AEROGRAM_REQUIRE(rows <= kMostIntervals, rows);
+    AEROGRAM_REQUIRE(rows <= kMostRows, rows);
     std::vector<bool> fixed(rows, false);
     for (std::size_t k = 0; k < 3; ++k) fixed[k] = fixed[rows - 1 - k] = true;
     for (std::size_t k = 0; k < rows; ++k) banded_[k] = !fixed[k];
@@ -105,7 +104,7 @@ void FleetState::look_at(ClosePair& pair, double aim_m, double limit_m, Piece& p
     const double together_m = moved_m_[pair.i] + moved_m_[pair.j];
     if (together_m + aim_m < pair.look_again_m) return;
     const std::size_t count = pair.last - pair.first;
-    double squared[kMostIntervals + kReadBeyond], share[kMostIntervals + kReadBeyond];
+    double squared[kMostRows + kReadBeyond], share[kMostRows + kReadBeyond];
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t q = 0; q < sampling_.per_interval(); ++q) {
         const std::size_t before = sampling_.before(q) + pair.first, after = sampling_.after(q) + pair.first;
@@ -210,7 +209,7 @@ void FleetState::move(const std::vector<std::uint32_t>& drones, double gain, con
         std::vector<double> corrections(3 * curves_.stride);
         double* const c[3] = {corrections.data(), corrections.data() + curves_.stride,
                               corrections.data() + 2 * curves_.stride};
-        std::array<double, kMostIntervals> by_interval_m;
+        std::array<double, kMostRows> by_interval_m;
         const std::size_t end = std::min(drones.size(), (p + 1) * kDronesAPiece);
         for (std::size_t first = p * kDronesAPiece; first < end; first += kDronesABlock) {
             const std::size_t count = std::min(kDronesABlock, end - first);

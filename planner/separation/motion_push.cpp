@@ -25,7 +25,6 @@ void differences(const double* x, const double* y, const double* z, std::size_t 
     }
 }
 
-constexpr std::size_t kMostRows = 1024;
 constexpr double kMostShare = 0.2;  ///< of a difference, taken off in one round
 
 /// Share of a length that is above its limit, as far as one round may go.

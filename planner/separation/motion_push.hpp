@@ -5,6 +5,9 @@
 
 namespace aerogram::planner {
 
+/// Control rows that an act may have here (a flow of 600 keyframes has 10,000).
+inline constexpr std::size_t kMostRows = 16'384;
+
 /// Pushes one drone's control rows towards speed and acceleration limits: differences of rows that are too long are
 /// shortened, in such measure that what comes out of the Sobolev filter is about the excess (DESIGN.md 8, 3).
 class MotionPush {

@@ -49,7 +49,9 @@ void formation_of_disc_outline(benchmark::State& state) {
     measure(state, source);
 }
 void formation_of_torus(benchmark::State& state) {
-    measure(state, shape(ShapeKind::torus));
+    ShapeSource source = shape(ShapeKind::torus);
+    source.inner = 0.25;
+    measure(state, source);
 }
 void formation_of_cube_volume(benchmark::State& state) {
     ShapeSource source = shape(ShapeKind::cube);

@@ -29,7 +29,14 @@ class RefusalCheck {
         std::string line;
         std::getline(lines, line);
         if (line.find(": this show cannot be flown within its limits") == std::string::npos) wrong(line);
-        while (std::getline(lines, line)) confirm(line);
+        bool obstructed = false, advised = false;
+        while (std::getline(lines, line)) {
+            const bool advice = line == "  (arrive.method = \"steered\" leads groups around obstacles)";
+            obstructed |= line.find(" inside obstacle ") != std::string::npos;
+            advised |= advice;
+            if (!advice) confirm(line);
+        }
+        if (obstructed != advised) wrong("advice about obstacles where there are none, or none where there are");
         if (confirmed_ == 0) wrong("nothing is named");
     }
 

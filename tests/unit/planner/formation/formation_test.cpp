@@ -273,14 +273,26 @@ TEST(FormationErrors, PointsInTheSamePlaceCannotBeHelpedBySize) {
 }
 
 TEST(FormationErrors, TooLowAndTooHighSlotsAreNamed) {
+    Mission mission = mission_of({part_of(text("I"), 5, high(110))});
+    mission.limits.ceiling_m = 120.0;
+    mission.keyframes[0].center_m = {0, 0, 50};
+    EXPECT_EQ(failure(mission),
+              "show.toml:7: keyframe[1].center_m: slot 5 stands at z = -5.00 m, below min_navigation_altitude_m = 2.5; "
+              "raise it by 7.5 m");
+    mission.keyframes[0].center_m = {0, 0, 70};
+    EXPECT_EQ(
+        failure(mission),
+        "show.toml:7: keyframe[1].center_m: slot 1 stands at z = 125.00 m, above ceiling_m = 120; lower it by 5 m");
+}
+
+/// It was told to be raised and lowered at once.
+TEST(FormationErrors, WhatIsTooTallForTheAirIsTold) {
     Mission mission = mission_of({part_of(text("I"), 5, high(130))});
     mission.limits.ceiling_m = 120.0;
     mission.keyframes[0].center_m = {0, 0, 60};
-    EXPECT_EQ(
-        failure(mission),
-        "show.toml:7: keyframe[1].center_m: slot 5 stands at z = -5.00 m, below min_navigation_altitude_m = 2.5; "
-        "raise it by 7.5 m\n"
-        "show.toml:7: keyframe[1].center_m: slot 1 stands at z = 125.00 m, above ceiling_m = 120; lower it by 5 m");
+    EXPECT_EQ(failure(mission),
+              "show.toml:7: keyframe[1].size_m: stands 130 m high; at most 117.5 m fit between "
+              "min_navigation_altitude_m = 2.5 and ceiling_m = 120");
 }
 
 TEST(FormationErrors, AWrongCsvIsNamedByItsOwnLine) {
