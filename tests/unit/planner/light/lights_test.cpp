@@ -80,6 +80,23 @@ TEST(Lights, WithoutAKeyframeTheyFollowThePlan) {
     }
 }
 
+/// With a volume a gradient stands in the show: a drone's colour is that of the place it flies through.
+TEST(Lights, WithAVolumeAGradientStandsInTheShow) {
+    SmallShow show;
+    Light& light = show.add_light(LightEffect::gradient, "", {kRed, kBlue});
+    light.period_s = 0.0;
+    light.start_s = 20.0;
+    light.volume = LightVolume{{0, 0, 30}, Vec3{200, 200, 200}, {}};  // x from -100 to 100
+    const auto tracks = show.lit();
+    for (const double t_s : {25.0, 32.0, 34.24, 38.2, 45.0}) {
+        Points here_m(11);
+        const std::size_t act = t_s < 30.0 ? 2 : t_s < 40.0 ? 3 : 4;
+        positions(show.acts[act], t_s - seconds_from_ms(show.acts[act].start_ms), here_m);
+        for (std::size_t d = 0; d < 11; ++d)
+            expect_color(shown(tracks, d, t_s), mix(kRed, kBlue, (here_m[d].x + 100.0) / 200.0));
+    }
+}
+
 TEST(Lights, LaterOnesLieOverEarlierOnesAndBlend) {
     SmallShow show;
     const auto plain = [&](const Rgb& color, LightBlend blend) -> Light& {
