@@ -10,6 +10,7 @@ namespace {
 namespace cl = ClipperLib;
 constexpr double kHalfRange = 1e9;  ///< below Clipper's range for plain 64-bit products
 constexpr std::size_t kPairsAtMost = 100'000'000, kMeetingsAtMost = 4'000'000;
+constexpr std::size_t kEdgesAtMost = 60'000;  ///< joining what touches is quadratic in Clipper
 
 /// Maps the box of all that goes in to Clipper's integers and back.
 class Grid {
@@ -61,6 +62,7 @@ bool affordable(std::initializer_list<const cl::Paths*> all) {
             }
         }
     }
+    if (edges.size() > kEdgesAtMost) return false;
     std::sort(edges.begin(), edges.end(), [](const Span& a, const Span& b) { return a.y0 < b.y0; });
     std::vector<Span> active;
     std::size_t pairs = 0, meetings = 0;

@@ -20,6 +20,10 @@ void say(std::string& note, const std::string& what) {
     if (!what.empty()) note += (note.empty() ? "" : "; ") + what;
 }
 
+std::string nothing_lit(const Ink& ink) {
+    return "shows nothing that is lit" + (ink.note.empty() ? "" : " (" + ink.note + ")");
+}
+
 /// All that is painted, as one area in the style asked for, coloured by place.
 Result<Figure> as_area(const PartRef& ref, const SvgSource& source, const Ink& ink, const std::string& key,
                        const Run& run) {
@@ -33,7 +37,7 @@ Result<Figure> as_area(const PartRef& ref, const SvgSource& source, const Ink& i
         }
         note = "too many shapes lie over one another to be one area: each is shown on its own";
     }
-    if (area->contours.empty()) return ref.error(key + "shows nothing that is lit");
+    if (area->contours.empty()) return ref.error(key + nothing_lit(ink));
     const Bounds box = bounds_of(*area);
     double filled = 0.0;
     for (const Contour& contour : area->contours) filled += 0.5 * doubled_area(contour);
@@ -78,7 +82,7 @@ Result<Figure> as_drawn(const PartRef& ref, const SvgSource& source, const Ink& 
                         const Run& run) {
     Ink seen = visible(ink);
     join_lines(seen.layers);
-    if (seen.layers.empty()) return ref.error(key + "shows nothing that is lit");
+    if (seen.layers.empty()) return ref.error(key + nothing_lit(seen));
     if (seen.layers.size() > ref.part.drones) {
         SvgSource whole = source;
         whole.style = SvgStyle::fill;
@@ -125,7 +129,7 @@ Result<Figure> svg_figure(const PartRef& ref, const SvgSource& source, const Run
     const auto drawing = read_svg(source.files.front());
     if (!drawing) return Error{drawing.error().code, ref.error(key + drawing.error().message).message};
     const Ink ink = ink_of(*drawing);
-    if (ink.layers.empty()) return ref.error(key + "shows nothing that is lit");
+    if (ink.layers.empty()) return ref.error(key + nothing_lit(ink));
     const bool drawn = source.style == SvgStyle::drawn;
     auto figure = drawn ? as_drawn(ref, source, ink, key, run) : as_area(ref, source, ink, key, run);
     if (!figure) return figure;

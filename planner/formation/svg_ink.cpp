@@ -1,6 +1,7 @@
 #include "planner/formation/svg_ink.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "planner/drawing/region_clip.hpp"
 #include "planner/picture/picture.hpp"
@@ -121,7 +122,7 @@ Ink ink_of(const Drawing& drawing) {
     Ink ink;
     const Vec2 view = drawing.view_high - drawing.view_low;
     const double page = std::max(view.x, view.y);
-    bool without_area = false;
+    bool without_area = false, too_involved = false;
     for (std::size_t s = 0; s < drawing.shapes.size(); ++s) {
         const DrawnShape& shape = drawing.shapes[s];
         InkLayer layer;
@@ -130,7 +131,13 @@ Ink ink_of(const Drawing& drawing) {
         if (shape.fill) {
             layer.color = *shape.fill;
             auto area = simplified(shape.area, FillRule::nonzero);
-            layer.area = area ? std::move(*area) : shape.area;
+            const bool needle = std::abs(area_of(shape.area)) <= kLeastArea * page * page;
+            if (!area && !needle) {
+                if (!too_involved) say(ink.note, "fills too involved to be drawn are left out: simplify the drawing");
+                too_involved = true;
+                continue;
+            }
+            if (area) layer.area = std::move(*area);
             const bool wide = shape.stroke && !is_black(*shape.fill) == !is_black(*shape.stroke);
             if (wide) {
                 const Region parts[] = {layer.area, stroked(lines, shape.stroke_width)};
@@ -142,12 +149,12 @@ Ink ink_of(const Drawing& drawing) {
             layer.area = stroked(lines, shape.stroke_width);
             if (auto area = simplified(layer.area, FillRule::nonzero)) layer.area = std::move(*area);
         }
-        if (layer.area.contours.empty()) continue;
         if (layer.lines.lines.empty() && area_of(layer.area) <= kLeastArea * page * page) {
             if (!without_area) say(ink.note, "fills without an area are left out");
             without_area = true;
             continue;
         }
+        if (layer.area.contours.empty()) continue;
         ink.layers.push_back(std::move(layer));
     }
     if (begins_with_paper(drawing, ink.layers)) {

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <numeric>
 
+#include "geo/random.hpp"
 #include "planner/formation/figure.hpp"
 #include "planner/formation/svg_ink.hpp"
 #include "tests/unit/planner/formation/missions.hpp"
@@ -70,6 +71,20 @@ TEST(SvgFigure, FillsWithoutAnAreaAreLeftOut) {
     const Figure f = figure(svg(drawn("needle-and-disc", std::string(needle) + kFlag)), 40);
     EXPECT_EQ(f.points(Vec3(1.0)).size(), 40U);
     EXPECT_THAT(f.note, HasSubstr("fills without an area are left out"));
+}
+
+/// A staircase of 120,000 steps and a polygon that crosses itself everywhere kept Clipper busy for minutes.
+TEST(SvgFigure, FillsTooInvolvedAreLeftOutInTime) {
+    std::string stairs = "M0 0", tangle = "M50 50";
+    for (int i = 0; i < 60'000; ++i) stairs += "l.001 0 0 .001";
+    Random random(5);
+    for (int i = 0; i < 20'000; ++i)
+        tangle += "L" + std::to_string(random.between(0, 100)) + " " + std::to_string(random.between(0, 100));
+    for (const std::string& path : {stairs, tangle}) {
+        const std::string fill = "<path fill='#f00' d='" + path + "z'/>";
+        EXPECT_THAT(fault(svg(drawn("involved", fill))), HasSubstr("too involved to be drawn are left out"));
+        EXPECT_EQ(figure(svg(drawn("involved-and-flag", fill + kFlag)), 40).points(Vec3(1.0)).size(), 40U);
+    }
 }
 
 /// Drones of filled drawings stood in their holes and beyond their edges.
