@@ -69,7 +69,7 @@ for number, (font, text) in enumerate(TEXTS):
     mirrored, _ = misses(drawn[:, ::-1], rows, gap)
     print(f"{font:18} drones off ink {from_ink / gap:5.2f} spacings, ink off drones {from_drone / gap:5.2f}, mirrored "
           f"{mirrored / gap:5.2f}  {text}")
-    if from_ink > 0.6 * gap or from_drone > 2.5 * gap:
+    if from_ink > 0.35 * gap or from_drone > 2.0 * gap:
         failures.append(text)
 assert not failures, failures
 sys.exit(0)
