@@ -5,7 +5,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "export/json_fields.hpp"
+#include "export/bytes/json_fields.hpp"
 #include "geo/units.hpp"
 
 namespace aerogram::exporter {

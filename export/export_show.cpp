@@ -6,13 +6,15 @@
 #include <numeric>
 #include <optional>
 
+#include "export/bytes/files.hpp"
+#include "export/bytes/sha256.hpp"
 #include "export/certificate_json.hpp"
-#include "export/files.hpp"
+#include "export/exact/show_hash.hpp"
+#include "export/exact/trajectories_bin.hpp"
+#include "export/formats.hpp"
 #include "export/manifest_json.hpp"
-#include "export/program.hpp"
-#include "export/sha256.hpp"
-#include "export/show_hash.hpp"
-#include "export/trajectories_bin.hpp"
+#include "export/outgoing/planned_show.hpp"
+#include "export/outgoing/program.hpp"
 #include "geo/units.hpp"
 
 namespace aerogram::exporter {
@@ -40,7 +42,7 @@ std::string known_names() {
 }
 
 /// The formats to write, in registry order; unsuited ones are kept with the reason unless they were asked for by name.
-Result<std::vector<Job>> choose(const planner::FlightPlan& plan, std::span<const std::string> names) {
+Result<std::vector<Job>> choose(const OutgoingShow& show, std::span<const std::string> names) {
     for (const std::string& name : names) {
         if (find_format(name) == nullptr)
             return invalid("no format is named \"" + name + "\"; there are: " + known_names());
@@ -52,7 +54,7 @@ Result<std::vector<Job>> choose(const planner::FlightPlan& plan, std::span<const
         Job job;
         job.format = &format;
         job.exported.name = format.name;
-        job.exported.skipped = format.unsuited(plan);
+        job.exported.skipped = format.unsuited(show);
         if (asked && !job.exported.skipped.empty()) {
             return invalid("this show cannot leave as " + job.exported.name + ": " + job.exported.skipped);
         }
@@ -61,9 +63,9 @@ Result<std::vector<Job>> choose(const planner::FlightPlan& plan, std::span<const
     return jobs;
 }
 
-void write_format(Job& job, const planner::FlightPlan& plan, const Seal& seal, const fs::path& folder, const Run& run) {
+void write_format(Job& job, const OutgoingShow& show, const Seal& seal, const fs::path& folder, const Run& run) {
     if (!job.exported.skipped.empty() || run.stopped()) return;
-    Result<std::vector<std::string>> written = job.format->write(plan, seal, folder, run);
+    Result<std::vector<std::string>> written = job.format->write(show, seal, folder, run);
     if (!written) {
         job.error = written.error();
         return;
@@ -71,32 +73,37 @@ void write_format(Job& job, const planner::FlightPlan& plan, const Seal& seal, c
     job.exported.files = std::move(*written);
 }
 
+Points homes_of(const OutgoingFacts& facts) {
+    Points homes_m;
+    for (const OutgoingDrone& drone : facts.drones) homes_m.push_back(drone.home_m);
+    return homes_m;
+}
+
 /// What the file says of itself must be what was written.
-std::string wrong_identity(const RecordedShow& show, const planner::FlightPlan& plan, const Seal& seal) {
-    if (show.show_hash && *show.show_hash != seal.show_hash) return "holds another show hash";
-    if (show.certified && *show.certified != seal.certified) return "holds another certified mark";
-    if (show.drones.size() != plan.drones()) {
-        return "holds " + std::to_string(show.drones.size()) + " drones of " + std::to_string(plan.drones());
+std::string wrong_identity(const RecordedShow& read, const OutgoingFacts& facts, const Seal& seal) {
+    if (read.show_hash && *read.show_hash != seal.show_hash) return "holds another show hash";
+    if (read.certified && *read.certified != seal.certified) return "holds another certified mark";
+    if (read.drones.size() != facts.drones.size()) {
+        return "holds " + std::to_string(read.drones.size()) + " drones of " + std::to_string(facts.drones.size());
     }
-    for (std::size_t i = 0; i < show.drones.size(); ++i) {
-        if (show.drones[i].name != drone_name(i + 1, plan.drones())) return "names a drone " + show.drones[i].name;
+    for (std::size_t i = 0; i < read.drones.size(); ++i) {
+        if (read.drones[i].name != facts.drones[i].name) return "names a drone " + read.drones[i].name;
     }
     return {};
 }
 
-JudgeAgainst judge_against(const planner::FlightPlan& plan) {
+JudgeAgainst judge_against(const OutgoingFacts& facts) {
     JudgeAgainst against;
-    against.limits = plan.limits;
-    against.airspace = plan.airspace;
-    against.origin = plan.origin;
-    against.endurance_s = plan.endurance_s;
+    against.limits = facts.limits;
+    against.airspace = facts.airspace;
+    against.origin = facts.origin;
+    against.endurance_s = facts.endurance_s;
     against.limits_from = kManifestName;
     return against;
 }
 
 /// Reads a format's files from disk, notes their hashes, and judges what they say.
-Status check_format(Job& job, const planner::FlightPlan& plan, const Seal& seal, const fs::path& folder,
-                    const Run& run) {
+Status check_format(Job& job, const OutgoingFacts& facts, const Seal& seal, const fs::path& folder, const Run& run) {
     if (!job.exported.skipped.empty() || run.stopped()) return Done{};
     std::vector<FileBytes> files;
     job.files.clear();
@@ -108,17 +115,17 @@ Status check_format(Job& job, const planner::FlightPlan& plan, const Seal& seal,
     }
     Result<RecordedShow> show = job.format->read(files);
     if (!show) return Error{ErrorCode::io, "what was written cannot be read back: " + show.error().message};
-    const std::string wrong = wrong_identity(*show, plan, seal);
+    const std::string wrong = wrong_identity(*show, facts, seal);
     if (!wrong.empty()) return Error{ErrorCode::io, "what was written as " + job.exported.name + " " + wrong};
     job.rounding = show->rounding;
-    state_missing_places(*show, plan.pads_m);
-    Result<Judgement> judgement = judge(*show, judge_against(plan), run);
+    state_missing_places(*show, homes_of(facts));
+    Result<Judgement> judgement = judge(*show, judge_against(facts), run);
     if (!judgement) return judgement.error();
     job.exported.judgement = std::move(*judgement);
     for (ManifestFile& file : job.files) {
         const bool claimed = job.exported.judgement.separation_claimed;
-        file.timing = claimed ? std::string(job.format->timing) : "none: separation not claimed";
-        if (claimed && plan.drones() > 1) file.min_separation_m = job.exported.judgement.min_separation_m;
+        file.timing = stated_timing(job.exported.judgement.timing, job.format->timing, claimed);
+        if (claimed && facts.drones.size() > 1) file.min_separation_m = job.exported.judgement.min_separation_m;
     }
     return Done{};
 }
@@ -143,15 +150,15 @@ std::vector<std::size_t> longest_first(const std::vector<Job>& jobs) {
 }
 
 /// Writes and checks all formats, several at a time; their order in the result is fixed.
-std::optional<Error> write_and_check(std::vector<Job>& jobs, const planner::FlightPlan& plan, const Seal& seal,
+std::optional<Error> write_and_check(std::vector<Job>& jobs, const OutgoingShow& show, const Seal& seal,
                                      const fs::path& folder, const Run& run) {
     const Run inner{run.stop, {}, run.threads};
     const std::vector<std::size_t> order = longest_first(jobs);
     parallel_for(jobs.size(), run, "exporting", [&](std::size_t i) {
         Job& job = jobs[order[i]];
-        write_format(job, plan, seal, folder, inner);
+        write_format(job, show, seal, folder, inner);
         if (job.error) return;
-        const Status checked = check_format(job, plan, seal, folder, inner);
+        const Status checked = check_format(job, show.facts(), seal, folder, inner);
         if (!checked) job.error = checked.error();
     });
     return first_error(jobs, run);
@@ -194,28 +201,27 @@ std::string complaints(const std::vector<Job>& jobs) {
     return text;
 }
 
-Manifest manifest_of(const std::vector<Job>& jobs, const planner::FlightPlan& plan, const Seal& seal,
+Manifest manifest_of(const std::vector<Job>& jobs, const OutgoingShow& show, const Seal& seal,
                      const std::string& certificate) {
+    const OutgoingFacts& facts = show.facts();
     Manifest m;
     m.program = kProgramName;
     m.version = kProgramVersion;
-    m.show_name = plan.name;
+    m.show_name = facts.title;
     m.show_hash = seal.show_hash;
     m.certified = seal.certified;
-    m.duration_s = seconds_from_ms(plan.duration_ms());
-    m.origin = plan.origin;
-    m.limits = plan.limits;
-    m.endurance_s = plan.endurance_s;
-    m.airspace = plan.airspace;
+    m.duration_s = seconds_from_ms(facts.duration_ms);
+    m.origin = *facts.origin;
+    m.limits = facts.limits;
+    m.endurance_s = facts.endurance_s;
+    m.airspace = facts.airspace;
     for (const Job& job : jobs) {
         m.formats.push_back({job.exported.name, job.exported.skipped, job.rounding});
         m.files.insert(m.files.end(), job.files.begin(), job.files.end());
     }
     m.files.push_back({std::string(kCertificateName), "certificate", certificate.size(), sha256_hex(certificate),
                        std::nullopt, std::nullopt});
-    for (std::size_t i = 0; i < plan.drones(); ++i) {
-        m.drones.push_back({drone_name(i + 1, plan.drones()), plan.pads_m[i]});
-    }
+    for (const OutgoingDrone& drone : facts.drones) m.drones.push_back({drone.name, drone.home_m});
     return m;
 }
 
@@ -266,12 +272,12 @@ void leave_out_broken_waypoints(std::vector<Job>& jobs, std::span<const std::str
 
 /// Certificate and manifest, the manifest last; then the swap.
 Status seal_folder(StagedFolder& folder, const std::vector<Job>& jobs, const planner::FlightPlan& plan,
-                   const Seal& seal, const Run& run) {
+                   const OutgoingShow& show, const Seal& seal, const Run& run) {
     run.report("sealing", 0.0);
     const std::string certificate = certificate_json(plan, seal.show_hash, seal.certified);
     Status done = write_file(folder.path() / kCertificateName, certificate);
     if (!done) return done;
-    done = write_file(folder.path() / kManifestName, manifest_json(manifest_of(jobs, plan, seal, certificate)));
+    done = write_file(folder.path() / kManifestName, manifest_json(manifest_of(jobs, show, seal, certificate)));
     if (!done) return done;
     if (run.stopped()) return stopped_error();
     done = folder.commit();
@@ -285,7 +291,8 @@ Result<ExportedShow> export_show(const planner::FlightPlan& plan, const fs::path
                                  std::span<const std::string> format_names, bool best_effort, const Run& run) {
     const std::string unsuited = trajectories_unsuited(plan);
     if (!unsuited.empty()) return invalid("this show cannot be exported: " + unsuited);
-    Result<std::vector<Job>> jobs = choose(plan, format_names);
+    const PlannedShow show(plan);
+    Result<std::vector<Job>> jobs = choose(show, format_names);
     if (!jobs) return jobs.error();
     Seal seal{show_hash(plan), plan.certificate.certified()};
     if (!seal.certified && !best_effort) return Error{ErrorCode::infeasible, "the plan is not certified"};
@@ -293,7 +300,7 @@ Result<ExportedShow> export_show(const planner::FlightPlan& plan, const fs::path
     Result<StagedFolder> folder = StagedFolder::beside(destination);
     if (!folder) return folder.error();
 
-    if (const auto error = write_and_check(*jobs, plan, seal, folder->path(), run)) return *error;
+    if (const auto error = write_and_check(*jobs, show, seal, folder->path(), run)) return *error;
     if (seal.certified) leave_out_broken_waypoints(*jobs, format_names, folder->path());
     const std::string wrong = complaints(*jobs);
     if (!wrong.empty() && !best_effort) {
@@ -301,9 +308,9 @@ Result<ExportedShow> export_show(const planner::FlightPlan& plan, const fs::path
     }
     if (!wrong.empty() && seal.certified) {  // the files must say so: write them again
         seal.certified = false;
-        if (const auto error = write_and_check(*jobs, plan, seal, folder->path(), run)) return *error;
+        if (const auto error = write_and_check(*jobs, show, seal, folder->path(), run)) return *error;
     }
-    const Status sealed = seal_folder(*folder, *jobs, plan, seal, run);
+    const Status sealed = seal_folder(*folder, *jobs, plan, show, seal, run);
     if (!sealed) return sealed.error();
     ExportedShow result{seal.show_hash, seal.certified, {}};
     for (Job& job : *jobs) result.formats.push_back(std::move(job.exported));

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "export/format.hpp"
+#include "export/outgoing/format.hpp"
 #include "export/verify/judge.hpp"
 
 namespace aerogram::exporter {

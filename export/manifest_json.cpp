@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "export/json_fields.hpp"
-#include "export/sha256.hpp"
+#include "export/bytes/json_fields.hpp"
+#include "export/bytes/sha256.hpp"
 #include "geo/contract.hpp"
 
 namespace aerogram::exporter {

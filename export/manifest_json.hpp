@@ -15,8 +15,6 @@
 /// manifest.json: what an exported folder holds and how each file can be checked (docs/formats/manifest.md).
 namespace aerogram::exporter {
 
-inline constexpr std::string_view kManifestName = "manifest.json";
-
 struct ManifestFile {
     std::string path;    ///< relative to the folder, with '/'
     std::string format;  ///< registry name, or "certificate"

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <set>
 
-#include "export/files.hpp"
-#include "export/sha256.hpp"
+#include "export/bytes/files.hpp"
+#include "export/bytes/sha256.hpp"
 
 namespace aerogram::exporter {
 namespace {

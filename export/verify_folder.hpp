@@ -4,8 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "export/format.hpp"
+#include "export/bytes/file_bytes.hpp"
 #include "export/manifest_json.hpp"
+#include "geo/run.hpp"
 
 namespace aerogram::exporter {
 

@@ -5,10 +5,10 @@
 #include <cstdio>
 #include <optional>
 
+#include "export/bytes/files.hpp"
+#include "export/bytes/sha256.hpp"
 #include "export/certificate_json.hpp"
-#include "export/files.hpp"
-#include "export/format.hpp"
-#include "export/sha256.hpp"
+#include "export/formats.hpp"
 #include "export/verify_agreement.hpp"
 #include "export/verify_folder.hpp"
 
@@ -185,8 +185,7 @@ class FolderCheck {
 
     /// What the manifest says of each file of a format.
     void check_claims(const Judgement& found, const Format& format) {
-        const std::string timing =
-            found.separation_claimed ? std::string(format.timing) : "none: separation not claimed";
+        const std::string timing = stated_timing(found.timing, format.timing, found.separation_claimed);
         for (const ManifestFile& file : manifest_.files) {
             if (file.format != format.name) continue;
             if (file.timing != timing)

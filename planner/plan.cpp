@@ -185,6 +185,9 @@ Result<FlightPlan> plan(const Mission& mission, const PlanOptions& options, cons
     plan.keyframes = std::move(timeline.keyframes);
     plan.cues = mission.cues;
     plan.audio = mission.audio;
+    plan.spare_pads_m = mission.fleet.spare_pads_m;
+    plan.exporting = mission.exporting;
+    plan.reporting = mission.reporting;
     plan.certificate = std::move(*certificate);
     return plan;
 }

@@ -30,6 +30,8 @@ struct Waypoint {
     double altitude_above_home_m = 0.0;
     double hold_s = 0.0;
     enum class Kind { takeoff, fly_to, land } kind = Kind::fly_to;
+    std::optional<double> until_s{};    ///< waits here until this show time
+    std::optional<double> speed_mps{};  ///< of the leg to here, where the file sets one
 };
 
 struct RecordedDrone {
@@ -63,7 +65,8 @@ struct RecordedShow {
     std::optional<Limits> limits;
     std::optional<geo::Airspace> airspace;
     std::optional<double> endurance_s;
-    bool timed = true;  ///< false: waypoints only, no separation can be claimed
+    bool timed = true;   ///< false: waypoints only, no separation can be claimed
+    std::string timing;  ///< where it differs from file to file of a format ("absolute"); empty: the format's
     Rounding rounding;
     std::vector<RecordedDrone> drones;
     std::vector<Cue> cues;

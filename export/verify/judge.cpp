@@ -75,6 +75,7 @@ Result<Judgement> judge(const RecordedShow& show, const JudgeAgainst& against, c
     if (show.drones.empty()) return Error{ErrorCode::invalid_input, "the show has no drones"};
     Judgement judgement;
     judgement.format = show.format;
+    judgement.timing = show.timing;
     judgement.limits_from = where_limits_come_from(show, against);
     const Rules rules = rules_for(show, against);
     if (!show.timed) return judge_waypoints(show, rules, run, std::move(judgement));

@@ -26,6 +26,7 @@ struct Finding {
 struct Judgement {
     std::string format;
     std::string limits_from;         ///< where the limits came from: "manifest.json", "the file", "preset standard"
+    std::string timing;              ///< RecordedShow::timing
     bool separation_claimed = true;  ///< false for untimed waypoints
     double min_separation_m = 0.0;  ///< certified lower bound, continuous time, on what the file says; where all drones
                                     ///< stay farther apart than twice the limit, just that

@@ -3,8 +3,8 @@
 #include <sstream>
 #include <thread>
 
-#include "export/format.hpp"
-#include "export/program.hpp"
+#include "export/formats.hpp"
+#include "export/outgoing/program.hpp"
 #include "ground/app/command_line.hpp"
 #include "ground/app/exit_status.hpp"
 

@@ -4,8 +4,8 @@
 #include <optional>
 #include <sstream>
 
-#include "export/files.hpp"
-#include "export/format.hpp"
+#include "export/bytes/files.hpp"
+#include "export/formats.hpp"
 #include "export/picture/strip_picture.hpp"
 #include "geo/color.hpp"
 #include "geo/units.hpp"

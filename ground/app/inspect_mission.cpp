@@ -3,7 +3,7 @@
 #include <sstream>
 #include <string_view>
 
-#include "export/decimal.hpp"
+#include "export/bytes/decimal.hpp"
 #include "export/picture/formation_picture.hpp"
 #include "export/picture/strip_picture.hpp"
 #include "ground/app/answers.hpp"

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <iostream>
 
-#include "export/files.hpp"
+#include "export/bytes/files.hpp"
 #include "ground/app/answers.hpp"
 #include "ground/app/commands.hpp"
 #include "ground/app/exit_status.hpp"

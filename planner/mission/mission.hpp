@@ -15,6 +15,7 @@
 #include "geo/limits.hpp"
 #include "geo/show_frame.hpp"
 #include "geo/tracks.hpp"
+#include "planner/mission/export_wishes.hpp"
 
 /// A mission as its designer wrote it: checked, defaults filled in, names resolved; nothing planned yet.
 /// Everything here mirrors MISSION.md; `line` members point back into the file for error messages.
@@ -366,6 +367,8 @@ struct Mission {
     std::vector<Light> lights;    ///< later ones over earlier ones
     std::vector<AdjacencyEdit> adjacency;
     std::optional<Carrier> carrier;
+    ExportWishes exporting;
+    ReportWishes reporting;
 
     /// "file:line: what" for messages of later stages, e.g. at(k.line, "keyframe[2].size_m = 3: needs >= 7.5").
     [[nodiscard]] std::string at(int line, const std::string& what) const;

@@ -43,6 +43,8 @@ Result<Mission> parse_mission(std::string_view toml, const std::filesystem::path
     read_adjacency(root, mission);
     read_carrier(root, mission);
     read_light_effects(root, mission);
+    read_export(root, mission);
+    read_report(root, mission);
     root.finish();
     if (!problems.empty()) return problems.error();
     return mission;

@@ -104,7 +104,6 @@ void read_show(TableReader& root, Mission& mission) {
         static_cast<std::uint64_t>(show->integer("seed", 0, std::numeric_limits<std::int64_t>::max()).value_or(1));
     read_origin(*show, mission);
     mission.audio = show->file("audio", "an audio file beside the mission");
-    if (mission.audio) show->later("audio", "no export carries it yet");
     mission.objective = show->choice<Objective>("objective", {{"shortest", Objective::shortest},
                                                               {"together", Objective::together},
                                                               {"smooth", Objective::smooth}})

@@ -27,6 +27,10 @@ void read_carrier(TableReader& root, Mission& mission);
 /// [[light]]; after groups and keyframes.
 void read_light_effects(TableReader& root, Mission& mission);
 
+/// [export] and [report].
+void read_export(TableReader& root, Mission& mission);
+void read_report(TableReader& root, Mission& mission);
+
 /// [keyframe.arrive]. @param in  the keyframe.
 Arrive read_arrive(TableReader& in, const Mission& mission);
 

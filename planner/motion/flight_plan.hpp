@@ -9,6 +9,7 @@
 #include "geo/limits.hpp"
 #include "geo/show_frame.hpp"
 #include "geo/tracks.hpp"
+#include "planner/mission/export_wishes.hpp"
 #include "planner/motion/act.hpp"
 #include "planner/motion/certificate.hpp"
 
@@ -34,11 +35,14 @@ struct FlightPlan {
     geo::Airspace airspace;
     double endurance_s = 900.0;
     Points pads_m;               ///< one a drone: home and landing place
+    Points spare_pads_m;         ///< pads that no drone uses, numbered on from the last drone's
     std::vector<Act> acts;       ///< in order, without gaps; acts[0].start_ms = 0
     std::vector<Tracks> tracks;  ///< one a drone
     std::vector<PlannedKeyframe> keyframes;
     std::vector<Cue> cues;
     std::optional<std::filesystem::path> audio;
+    ExportWishes exporting;
+    ReportWishes reporting;
     Certificate certificate;
 
     [[nodiscard]] std::size_t drones() const { return pads_m.size(); }

@@ -3,14 +3,14 @@
 #include <string>
 #include <string_view>
 
+#include "export/bytes/crc32.hpp"
+#include "export/bytes/little_endian.hpp"
+#include "export/bytes/sha256.hpp"
+#include "export/bytes/zip.hpp"
 #include "export/certificate_json.hpp"
-#include "export/crc32.hpp"
-#include "export/little_endian.hpp"
+#include "export/exact/trajectories_bin.hpp"
 #include "export/manifest_json.hpp"
-#include "export/sha256.hpp"
-#include "export/trajectories_bin.hpp"
 #include "export/verify/judge.hpp"
-#include "export/zip.hpp"
 
 /// What the fuzz targets of the export readers do with any bytes: they are read or refused as invalid input, and what
 /// is read is sound. Hashes and checksums would stop nearly every input at the door, so each is tried once more with

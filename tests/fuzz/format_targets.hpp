@@ -3,12 +3,12 @@
 #include <string_view>
 #include <vector>
 
-#include "export/csv_zip_reader.hpp"
-#include "export/light_program.hpp"
-#include "export/qgc_plan.hpp"
-#include "export/skyc.hpp"
-#include "export/waypoints.hpp"
-#include "export/zip.hpp"
+#include "export/bytes/zip.hpp"
+#include "export/skybrush/csv_zip_reader.hpp"
+#include "export/skybrush/light_program.hpp"
+#include "export/skybrush/skyc.hpp"
+#include "export/waypoint/qgc_plan.hpp"
+#include "export/waypoint/waypoints.hpp"
 #include "tests/fuzz/export_targets.hpp"
 
 /// What the fuzz targets of the formats of other programs do with any bytes: they are a sound show, or refused with a

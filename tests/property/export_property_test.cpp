@@ -4,10 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "export/bytes/files.hpp"
+#include "export/exact/show_hash.hpp"
+#include "export/exact/trajectories_bin.hpp"
 #include "export/export_show.hpp"
-#include "export/files.hpp"
-#include "export/show_hash.hpp"
-#include "export/trajectories_bin.hpp"
+#include "export/formats.hpp"
 #include "fleet_sampling.hpp"
 #include "random_missions.hpp"
 #include "tests/unit/export/scratch_folder.hpp"

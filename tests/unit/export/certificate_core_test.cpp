@@ -3,8 +3,8 @@
 
 #include <limits>
 
+#include "export/bytes/sha256.hpp"
 #include "export/certificate_json.hpp"
-#include "export/sha256.hpp"
 #include "tests/unit/export/fixed_show.hpp"
 #include "tests/unit/export/golden_bytes.hpp"
 

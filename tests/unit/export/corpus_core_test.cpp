@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "export/files.hpp"
+#include "export/bytes/files.hpp"
 #include "tests/fuzz/export_targets.hpp"
 
 namespace aerogram::exporter {

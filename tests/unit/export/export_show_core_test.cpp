@@ -5,12 +5,13 @@
 #include <map>
 #include <set>
 
+#include "export/bytes/files.hpp"
+#include "export/bytes/sha256.hpp"
 #include "export/certificate_json.hpp"
+#include "export/exact/show_hash.hpp"
 #include "export/export_show.hpp"
-#include "export/files.hpp"
+#include "export/formats.hpp"
 #include "export/manifest_json.hpp"
-#include "export/sha256.hpp"
-#include "export/show_hash.hpp"
 #include "tests/unit/export/fixed_show.hpp"
 #include "tests/unit/export/scratch_folder.hpp"
 

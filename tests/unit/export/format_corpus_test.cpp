@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "export/files.hpp"
+#include "export/bytes/files.hpp"
 #include "tests/fuzz/format_targets.hpp"
 
 namespace aerogram::exporter {

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "export/format.hpp"
-#include "export/light_program.hpp"
-#include "export/show_hash.hpp"
-#include "fixed_show.hpp"
+#include "export/exact/show_hash.hpp"
+#include "export/formats.hpp"
+#include "export/skybrush/light_program.hpp"
 #include "geo/units.hpp"
 #include "planner/light/lights.hpp"
-#include "written_files.hpp"
+#include "tests/unit/export/fixed_show.hpp"
+#include "tests/unit/export/written_files.hpp"
 
 namespace aerogram::exporter {
 namespace {

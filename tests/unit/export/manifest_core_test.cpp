@@ -1,10 +1,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "export/files.hpp"
+#include "export/bytes/files.hpp"
+#include "export/bytes/sha256.hpp"
 #include "export/manifest_json.hpp"
-#include "export/program.hpp"
-#include "export/sha256.hpp"
+#include "export/outgoing/program.hpp"
 #include "tests/unit/export/fixed_show.hpp"
 #include "tests/unit/export/golden_bytes.hpp"
 

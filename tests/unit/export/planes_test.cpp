@@ -3,10 +3,11 @@
 #include <gtest/gtest.h>
 
 #include "export/certificate_json.hpp"
-#include "export/format.hpp"
-#include "export/show_hash.hpp"
-#include "export/trajectories_bin.hpp"
-#include "fixed_show.hpp"
+#include "export/exact/show_hash.hpp"
+#include "export/exact/trajectories_bin.hpp"
+#include "export/formats.hpp"
+#include "export/outgoing/planned_show.hpp"
+#include "tests/unit/export/fixed_show.hpp"
 
 namespace aerogram::exporter {
 namespace {
@@ -65,17 +66,17 @@ TEST(Planes, CertificateTellsAirspeedsAndTurnRate) {
 TEST(Planes, FormatsForCoptersAreLeftOutWithTheReason) {
     const planner::FlightPlan plan = plane_show();
     for (const char* name : {"skyc", "qgc", "waypoints"})
-        EXPECT_THAT(find_format(name)->unsuited(plan), HasSubstr("planes: ")) << name;
+        EXPECT_THAT(find_format(name)->unsuited(PlannedShow(plan)), HasSubstr("planes: ")) << name;
     for (const char* name : {"trajectories", "csv", "preview"})
-        EXPECT_EQ(find_format(name)->unsuited(plan), "") << name;
+        EXPECT_EQ(find_format(name)->unsuited(PlannedShow(plan)), "") << name;
 }
 
 TEST(Rides, WaypointsCannotTellFormationsThatMove) {
     planner::FlightPlan plan = fixed::show();
-    EXPECT_EQ(find_format("qgc")->unsuited(plan), "");
+    EXPECT_EQ(find_format("qgc")->unsuited(PlannedShow(plan)), "");
     auto& lattice = std::get<planner::Lattice>(plan.acts[3].motion);
     lattice.at(2, 1).x += 0.5;  // no longer at rest where the act begins
-    EXPECT_THAT(find_format("qgc")->unsuited(plan), HasSubstr("rides along a route"));
+    EXPECT_THAT(find_format("qgc")->unsuited(PlannedShow(plan)), HasSubstr("rides along a route"));
 }
 
 }  // namespace

@@ -5,12 +5,12 @@
 #include <filesystem>
 #include <fstream>
 
+#include "export/bytes/files.hpp"
+#include "export/bytes/zip.hpp"
 #include "export/certificate_json.hpp"
 #include "export/export_show.hpp"
-#include "export/files.hpp"
 #include "export/manifest_json.hpp"
 #include "export/verify_show.hpp"
-#include "export/zip.hpp"
 #include "planner/motion/certificate.hpp"
 #include "tests/unit/export/fixed_show.hpp"
 #include "tests/unit/export/scratch_folder.hpp"

@@ -7,9 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "export/files.hpp"
-#include "export/format.hpp"
-#include "export/zip.hpp"
+#include "export/bytes/files.hpp"
+#include "export/bytes/zip.hpp"
+#include "export/outgoing/format.hpp"
+#include "export/outgoing/planned_show.hpp"
 
 /// Writers run into memory, and their bytes compared with tests/golden/writers (AEROGRAM_UPDATE_GOLDEN=1 rewrites
 /// them).
@@ -41,7 +42,7 @@ inline std::vector<FileBytes> written_files(const Format& format, const planner:
                                             const Seal& seal = test_seal()) {
     const ScratchFolder folder;
     std::vector<FileBytes> files;
-    const auto paths = format.write(plan, seal, folder.path(), Run{});
+    const auto paths = format.write(PlannedShow(plan), seal, folder.path(), Run{});
     EXPECT_TRUE(paths.ok()) << (paths.ok() ? "" : paths.error().message);
     if (!paths) return files;
     for (const std::string& path : *paths) files.push_back({path, read_file(folder.path() / path).value()});
