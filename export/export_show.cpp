@@ -288,22 +288,22 @@ Status seal_folder(StagedFolder& folder, const std::vector<Job>& jobs, const pla
 }  // namespace
 
 Result<ExportedShow> export_show(const planner::FlightPlan& plan, const fs::path& destination,
-                                 std::span<const std::string> format_names, bool best_effort, const Run& run) {
+                                 const ExportOptions& options, const Run& run) {
     const std::string unsuited = trajectories_unsuited(plan);
     if (!unsuited.empty()) return invalid("this show cannot be exported: " + unsuited);
-    const PlannedShow show(plan);
-    Result<std::vector<Job>> jobs = choose(show, format_names);
+    const PlannedShow show = options.drones.empty() ? PlannedShow(plan) : PlannedShow(plan, options.drones);
+    Result<std::vector<Job>> jobs = choose(show, options.formats);
     if (!jobs) return jobs.error();
     Seal seal{show_hash(plan), plan.certificate.certified()};
-    if (!seal.certified && !best_effort) return Error{ErrorCode::infeasible, "the plan is not certified"};
+    if (!seal.certified && !options.best_effort) return Error{ErrorCode::infeasible, "the plan is not certified"};
     if (const Status replaceable = check_replaceable(destination); !replaceable) return replaceable.error();
     Result<StagedFolder> folder = StagedFolder::beside(destination);
     if (!folder) return folder.error();
 
     if (const auto error = write_and_check(*jobs, show, seal, folder->path(), run)) return *error;
-    if (seal.certified) leave_out_broken_waypoints(*jobs, format_names, folder->path());
+    if (seal.certified) leave_out_broken_waypoints(*jobs, options.formats, folder->path());
     const std::string wrong = complaints(*jobs);
-    if (!wrong.empty() && !best_effort) {
+    if (!wrong.empty() && !options.best_effort) {
         return Error{ErrorCode::infeasible, "the written files break limits that the plan holds:\n" + wrong};
     }
     if (!wrong.empty() && seal.certified) {  // the files must say so: write them again

@@ -21,11 +21,17 @@ struct ExportedShow {
     std::vector<ExportedFormat> formats;
 };
 
+struct ExportOptions {
+    std::vector<std::string> formats;  ///< by name; empty: all suited ones
+    bool best_effort = false;          ///< export even what is not certified, marked so in every file
+    std::vector<DroneId> drones;       ///< only these, rising; empty: the whole fleet
+};
+
 /// Writes the plan in the named formats (empty: all suited ones), certificate.json and manifest.json into
 /// `destination`, reads every file back, judges it (verify), and swaps the folder in atomically. Errors: infeasible
 /// when a written file breaks a limit and best_effort is off; invalid_input for unknown or unsuited formats asked for
 /// by name; io; stopped. On any error the destination is as it was.
 Result<ExportedShow> export_show(const planner::FlightPlan& plan, const std::filesystem::path& destination,
-                                 std::span<const std::string> format_names, bool best_effort, const Run& run);
+                                 const ExportOptions& options, const Run& run);
 
 }  // namespace aerogram::exporter

@@ -130,7 +130,8 @@ int run_plan(const PlanCommand& command, const Session& session) {
     if (!mission) return report_error(mission.error(), session);
     auto plan = planner::plan(*mission, {command.best_effort}, session.run);
     if (!plan) return report_error(plan.error(), session);
-    auto shown = exporter::export_show(*plan, out, command.formats, command.best_effort, session.run);
+    auto shown = exporter::export_show(
+        *plan, out, {.formats = command.formats, .best_effort = command.best_effort, .drones = {}}, session.run);
     if (!shown) return report_error(shown.error(), session);
     session.console.clear_line();
     if (!shown->certified) tell_violations(*plan, session.console);

@@ -57,7 +57,8 @@ void export_words(benchmark::State& state) {
     const auto folder =
         std::filesystem::temp_directory_path() / ("aerogram-bench-" + std::to_string(::getpid())) / "show";
     for (auto _ : state) {
-        const auto show = exporter::export_show(plan, folder, {}, false, Run{});
+        const auto show =
+            exporter::export_show(plan, folder, {.formats = {}, .best_effort = false, .drones = {}}, Run{});
         const bool held = show.ok() && show->certified && std::ranges::all_of(show->formats, [](const auto& format) {
                               return format.skipped.empty() && format.judgement.held();
                           });

@@ -91,7 +91,8 @@ TEST(ExportProperty, EveryFormatReadsBackWithinItsStatedRounding) {
     const int count = std::max(1, cases(30) / 2);
     for_each_flown_plan(6000, count, [&](const FlightPlan& plan, const std::string&) {
         const auto folder = scratch.path() / "show";
-        const auto exported = exporter::export_show(plan, folder, {}, false, aerogram::Run{});
+        const auto exported =
+            exporter::export_show(plan, folder, {.formats = {}, .best_effort = false, .drones = {}}, aerogram::Run{});
         ASSERT_TRUE(exported) << exported.error().message;
         EXPECT_EQ(exported->show_hash, exporter::show_hash(plan));
         for (const exporter::ExportedFormat& format : exported->formats) {

@@ -23,7 +23,8 @@ Json export_study(const Arguments& arguments) {
     const fs::path folder = fs::temp_directory_path() / ("aerogram-export-study-" + std::to_string(n) + "-" + format);
     const MemoryRise memory;
     const double start_s = cpu_s();
-    const auto exported = exporter::export_show(plan, folder, names, false, run);
+    const auto exported =
+        exporter::export_show(plan, folder, {.formats = names, .best_effort = false, .drones = {}}, run);
     const double exported_s = cpu_s();
     if (!exported) throw std::runtime_error(exported.error().message);
     const auto verified = exporter::verify_path(folder, run);

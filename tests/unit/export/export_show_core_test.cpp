@@ -64,7 +64,8 @@ TEST(Formats, AreCompleteAndNamedOnce) {
 TEST(ExportShow, WritesEveryFormatWithItsHashes) {
     const fixed::ScratchFolder scratch;
     const planner::FlightPlan plan = fixed::show();
-    const auto exported = export_show(plan, scratch.path() / "show", {}, false, {});
+    const auto exported =
+        export_show(plan, scratch.path() / "show", {.formats = {}, .best_effort = false, .drones = {}}, {});
     ASSERT_TRUE(exported.ok()) << exported.error().message;
     EXPECT_EQ(exported->show_hash, show_hash(plan));
     EXPECT_TRUE(exported->certified);
@@ -95,7 +96,8 @@ TEST(ExportShow, WritesEveryFormatWithItsHashes) {
 
 TEST(ExportShow, EveryFormatRecognisesItsOwnFiles) {
     const fixed::ScratchFolder scratch;
-    const auto exported = export_show(fixed::show(), scratch.path() / "show", {}, false, {});
+    const auto exported =
+        export_show(fixed::show(), scratch.path() / "show", {.formats = {}, .best_effort = false, .drones = {}}, {});
     ASSERT_TRUE(exported.ok()) << exported.error().message;
     const auto files = contents(scratch.path() / "show");
     for (const ExportedFormat& format : exported->formats) {
@@ -112,19 +114,25 @@ TEST(ExportShow, SameShowGivesTheSameBytesOnAnyNumberOfThreads) {
     const fixed::ScratchFolder scratch;
     aerogram::Run two;
     two.threads = 2;
-    ASSERT_TRUE(export_show(fixed::show(), scratch.path() / "one", {}, false, {}).ok());
-    ASSERT_TRUE(export_show(fixed::show(), scratch.path() / "two", {}, false, two).ok());
+    ASSERT_TRUE(
+        export_show(fixed::show(), scratch.path() / "one", {.formats = {}, .best_effort = false, .drones = {}}, {})
+            .ok());
+    ASSERT_TRUE(
+        export_show(fixed::show(), scratch.path() / "two", {.formats = {}, .best_effort = false, .drones = {}}, two)
+            .ok());
     EXPECT_EQ(contents(scratch.path() / "one"), contents(scratch.path() / "two"));
 }
 
 TEST(ExportShow, OnlyTheNamedFormatsAreWritten) {
     const fixed::ScratchFolder scratch;
-    const auto exported = export_show(fixed::show(), scratch.path() / "show", kExact, false, {});
+    const auto exported = export_show(fixed::show(), scratch.path() / "show",
+                                      {.formats = kExact, .best_effort = false, .drones = {}}, {});
     ASSERT_TRUE(exported.ok()) << exported.error().message;
     ASSERT_EQ(exported->formats.size(), 1U);
     EXPECT_EQ(contents(scratch.path() / "show").size(), 3U);
     const std::vector<std::string> unknown{"trajectories", "skyk"};
-    const auto refused = export_show(fixed::show(), scratch.path() / "show", unknown, false, {});
+    const auto refused = export_show(fixed::show(), scratch.path() / "show",
+                                     {.formats = unknown, .best_effort = false, .drones = {}}, {});
     ASSERT_FALSE(refused.ok());
     EXPECT_EQ(refused.error().code, ErrorCode::invalid_input);
     EXPECT_THAT(refused.error().message, HasSubstr("no format is named \"skyk\"; there are: trajectories"));
@@ -137,15 +145,15 @@ TEST(ExportShow, ForeignFilesAreNeverReplaced) {
     ASSERT_TRUE(write_file(site / "manifest.json", R"({"name": "a web page"})").ok());
     ASSERT_TRUE(write_file(site / "src" / "a.js", "x").ok());
     const auto before = contents(site);
-    const auto refused = export_show(fixed::show(), site, kExact, false, {});
+    const auto refused = export_show(fixed::show(), site, {.formats = kExact, .best_effort = false, .drones = {}}, {});
     ASSERT_FALSE(refused.ok());
     EXPECT_EQ(refused.error().code, ErrorCode::invalid_input);
     EXPECT_THAT(refused.error().message, HasSubstr("no show folder written by aerogram"));
     EXPECT_EQ(contents(site), before);
 
-    ASSERT_TRUE(export_show(fixed::show(), own, kExact, false, {}).ok());
+    ASSERT_TRUE(export_show(fixed::show(), own, {.formats = kExact, .best_effort = false, .drones = {}}, {}).ok());
     ASSERT_TRUE(write_file(own / "notes" / "mine.txt", "mine").ok());
-    const auto noted = export_show(fixed::show(), own, kExact, false, {});
+    const auto noted = export_show(fixed::show(), own, {.formats = kExact, .best_effort = false, .drones = {}}, {});
     ASSERT_FALSE(noted.ok());
     EXPECT_THAT(noted.error().message, HasSubstr("holds notes/mine.txt, which aerogram did not write"));
     EXPECT_TRUE(fs::exists(own / "notes" / "mine.txt"));
@@ -153,9 +161,12 @@ TEST(ExportShow, ForeignFilesAreNeverReplaced) {
 
 TEST(ExportShow, FilesThatBreakALimitAreNotKept) {
     const fixed::ScratchFolder scratch;
-    ASSERT_TRUE(export_show(fixed::show(), scratch.path() / "show", kExact, false, {}).ok());
+    ASSERT_TRUE(
+        export_show(fixed::show(), scratch.path() / "show", {.formats = kExact, .best_effort = false, .drones = {}}, {})
+            .ok());
     const auto before = contents(scratch.path());
-    const auto exported = export_show(colliding(), scratch.path() / "show", kExact, false, {});
+    const auto exported =
+        export_show(colliding(), scratch.path() / "show", {.formats = kExact, .best_effort = false, .drones = {}}, {});
     ASSERT_FALSE(exported.ok());
     EXPECT_EQ(exported.error().code, ErrorCode::infeasible);
     EXPECT_THAT(exported.error().message, HasSubstr("trajectories: separation 0, limit 1.5, drones 1 2, at "));
@@ -167,14 +178,18 @@ TEST(ExportShow, BrokenLimitIsSaidWithTheDigitsThatTellItFromWhatWasFound) {
     const fixed::ScratchFolder scratch;
     planner::FlightPlan plan = fixed::show();
     plan.limits.ceiling_m = 20.8721;  // flown: 20.875 m above the third pad, and the curve of the earth
-    const auto exported = export_show(plan, scratch.path() / "show", kExact, false, aerogram::Run{});
+    const auto exported = export_show(plan, scratch.path() / "show",
+                                      {.formats = kExact, .best_effort = false, .drones = {}}, aerogram::Run{});
     ASSERT_FALSE(exported.ok());
     EXPECT_THAT(exported.error().message, HasSubstr("trajectories: altitude_max 20.875, limit 20.872, drone 3, at "));
     plan.limits.ceiling_m = 20.8742;
-    EXPECT_TRUE(export_show(plan, scratch.path() / "show", kExact, false, aerogram::Run{}).ok());  // within 1 mm
+    EXPECT_TRUE(export_show(plan, scratch.path() / "show", {.formats = kExact, .best_effort = false, .drones = {}},
+                            aerogram::Run{})
+                    .ok());  // within 1 mm
     plan.limits = Limits{};
     plan.limits.speed_up_mps = 1.4931;
-    const auto speed = export_show(plan, scratch.path() / "show", kExact, false, aerogram::Run{});
+    const auto speed = export_show(plan, scratch.path() / "show",
+                                   {.formats = kExact, .best_effort = false, .drones = {}}, aerogram::Run{});
     ASSERT_FALSE(speed.ok());
     EXPECT_THAT(speed.error().message, HasSubstr("trajectories: speed_up 1.49"));
     EXPECT_THAT(speed.error().message, HasSubstr(", limit 1.4931, drone 3, at "));
@@ -182,7 +197,8 @@ TEST(ExportShow, BrokenLimitIsSaidWithTheDigitsThatTellItFromWhatWasFound) {
 
 TEST(ExportShow, BestEffortMarksEveryFileAsUncertified) {
     const fixed::ScratchFolder scratch;
-    const auto exported = export_show(colliding(), scratch.path() / "show", kExact, true, {});
+    const auto exported =
+        export_show(colliding(), scratch.path() / "show", {.formats = kExact, .best_effort = true, .drones = {}}, {});
     ASSERT_TRUE(exported.ok()) << exported.error().message;
     EXPECT_FALSE(exported->certified);
     EXPECT_FALSE(exported->formats[0].judgement.held());
@@ -196,8 +212,12 @@ TEST(ExportShow, APlanThatIsNotCertifiedNeedsBestEffort) {
     const fixed::ScratchFolder scratch;
     planner::FlightPlan plan = fixed::show();
     plan.certificate.violations = {"endurance"};
-    EXPECT_EQ(export_show(plan, scratch.path() / "show", kExact, false, {}).error().code, ErrorCode::infeasible);
-    const auto exported = export_show(plan, scratch.path() / "show", kExact, true, {});
+    EXPECT_EQ(export_show(plan, scratch.path() / "show", {.formats = kExact, .best_effort = false, .drones = {}}, {})
+                  .error()
+                  .code,
+              ErrorCode::infeasible);
+    const auto exported =
+        export_show(plan, scratch.path() / "show", {.formats = kExact, .best_effort = true, .drones = {}}, {});
     ASSERT_TRUE(exported.ok()) << exported.error().message;
     EXPECT_FALSE(exported->certified);
 }
@@ -212,7 +232,8 @@ TEST(ExportShow, StopsWhenAsked) {
         stages.emplace_back(stage);
         if (stage == "exporting") source.request_stop();
     };
-    const auto exported = export_show(fixed::show(), scratch.path() / "show", kExact, false, run);
+    const auto exported = export_show(fixed::show(), scratch.path() / "show",
+                                      {.formats = kExact, .best_effort = false, .drones = {}}, run);
     ASSERT_FALSE(exported.ok());
     EXPECT_EQ(exported.error().code, ErrorCode::stopped);
     EXPECT_TRUE(contents(scratch.path()).empty());
@@ -223,7 +244,8 @@ TEST(ExportShow, StopsWhenAsked) {
 TEST(ExportShow, ForeignFoldersAreKept) {
     const fixed::ScratchFolder scratch;
     ASSERT_TRUE(write_file(scratch.path() / "thesis/chapter-1", "irreplaceable").ok());
-    const auto exported = export_show(fixed::show(), scratch.path() / "thesis", kExact, false, {});
+    const auto exported = export_show(fixed::show(), scratch.path() / "thesis",
+                                      {.formats = kExact, .best_effort = false, .drones = {}}, {});
     EXPECT_EQ(exported.error().code, ErrorCode::invalid_input);
     EXPECT_EQ(contents(scratch.path()).size(), 1U);
 }

@@ -45,7 +45,8 @@ planner::FlightPlan honest_show() {
 }
 
 void export_plan(const planner::FlightPlan& plan, const fs::path& folder, const std::vector<std::string>& formats) {
-    const auto exported = export_show(plan, folder, formats, false, PlainRun{});
+    const auto exported =
+        export_show(plan, folder, {.formats = formats, .best_effort = false, .drones = {}}, PlainRun{});
     ASSERT_TRUE(exported.ok()) << exported.error().message;
 }
 
@@ -309,7 +310,10 @@ TEST(VerifyFolder, BrokenLimitsAreFindings) {
     const fs::path folder = scratch.path() / "show";
     planner::FlightPlan plan = honest_show();
     plan.limits.speed_horizontal_mps = 0.5;
-    ASSERT_TRUE(export_show(plan, folder, std::vector<std::string>{"trajectories"}, true, PlainRun{}).ok());
+    ASSERT_TRUE(export_show(plan, folder,
+                            {.formats = std::vector<std::string>{"trajectories"}, .best_effort = true, .drones = {}},
+                            PlainRun{})
+                    .ok());
     const Verified result = verified(folder);
     EXPECT_FALSE(result.held());
     EXPECT_THAT(result.problems, ElementsAre(HasSubstr("manifest.json: says that this show is not certified")));
@@ -358,7 +362,10 @@ TEST(VerifyFile, UncertifiedFileDoesNotHoldWhateverItsNumbers) {
     const fs::path folder = scratch.path() / "show";
     planner::FlightPlan plan = honest_show();
     plan.certificate.violations = {"the show lasts too long"};
-    ASSERT_TRUE(export_show(plan, folder, std::vector<std::string>{"trajectories"}, true, PlainRun{}).ok());
+    ASSERT_TRUE(export_show(plan, folder,
+                            {.formats = std::vector<std::string>{"trajectories"}, .best_effort = true, .drones = {}},
+                            PlainRun{})
+                    .ok());
     fs::create_directory(scratch.path() / "alone");
     fs::copy_file(folder / "trajectories.bin", scratch.path() / "alone" / "trajectories.bin");
     const Verified result = verified(scratch.path() / "alone" / "trajectories.bin");
