@@ -17,9 +17,11 @@ struct FlightVolumes {
     double speed_mps = 0.0;  ///< v: the speed limit
 };
 
-/// Properties: (1) no drone is ever outside flight_m and flight_height_m, to 1 mm (2) each volume holds the one before,
+/// Properties: (1) no drone is ever outside flight_m and flight_height_m, to 1 mm; their corners and height are places
+/// that a drone is at (a fleet above one line or point gets 1 cm of width) (2) each volume holds the one before,
 /// everywhere by the stated width or up to 1 % more, where corners are rounded by straight lines (3) vertices run
-/// counter-clockwise. Source: FORMATS.md 7.
+/// counter-clockwise.
+/// Degenerate: no drones, no volumes. Cost: about 0.1 ms a drone of a five-minute show. Source: FORMATS.md 7.
 [[nodiscard]] FlightVolumes flight_volumes(const OutgoingShow& show, const Run& run);
 
 }  // namespace aerogram::exporter
