@@ -57,6 +57,7 @@ struct ReportEnergy {
     double mean_used = 0.0, most_used = 0.0;  ///< share of the endurance, 0..1 (more: it would not come home)
     std::size_t most_used_by = 0;             ///< number
     double least_reserve = 0.0;               ///< 1 - most_used
+    std::string model;                        ///< in words
     double wanted_reserve = 0.15;
     bool held = true;
 };
@@ -113,11 +114,12 @@ struct Report {
     double min_separation_m = 0.0;  ///< certified lower bound
     std::vector<ReportRule> rules;
     // Over time.
+    double step_s = 0.0;  ///< times_s are its multiples below the duration, and the duration
     std::vector<double> times_s;
-    std::vector<ReportSeries> series;  ///< altitudes, speeds, acceleration, jerk
-    std::vector<double> nearest_m;     ///< the closest pair, at each of times_s, in the separation metric
+    std::vector<ReportSeries> series;  ///< altitudes, speeds, acceleration, jerk; largest (lowest) up to the next time
+    std::vector<double> nearest_m;  ///< the closest pair, at each of times_s, in the separation metric; infinite: none
     double histogram_step_m = 0.25;
-    std::vector<std::size_t> histogram;       ///< drone-instants by distance to the nearest neighbour, in flight
+    std::vector<std::size_t> histogram;  ///< drone-instants in flight by distance to the nearest; last: all beyond
     std::vector<OutgoingKeyframe> keyframes;  ///< without places
     std::vector<ReportEncounter> encounters;  ///< at most 20, closest first, one an approach
     std::vector<ReportEncounter> alignments;  ///< at most 20: one drone in the downwash of another
