@@ -12,6 +12,7 @@ namespace aerogram::exporter {
 namespace {
 
 constexpr double kNumeric = 1e-6;
+constexpr double kResolved_m = 1e-4;  ///< of two separations: SeparationSearch::resolved_m and a margin
 constexpr double kSampleEvery_s = 0.25;
 constexpr double kMostSamples = 4e6;  ///< of all drones together
 constexpr double kFewestTimes = 50.0;
@@ -77,6 +78,14 @@ bool equal(const Rounding& a, const Rounding& b) {
 
 double space_m(const Rounding& rounding) {
     return std::sqrt(3.0) * rounding.position_m + rounding.fit_m;
+}
+
+/// How far two shows may have one drone apart.
+double allowed_distance_m(const Rounding& a, const Rounding& b, const Limits& limits) {
+    const double fastest_mps =
+        limits.plane ? limits.plane->airspeed_max_mps
+                     : std::hypot(limits.speed_horizontal_mps, std::max(limits.speed_up_mps, limits.speed_down_mps));
+    return space_m(a) + space_m(b) + kNumeric + (a.time_s + b.time_s) * fastest_mps;
 }
 
 /// Names and pads; the first that differs.
@@ -165,6 +174,29 @@ Problems places_disagree(const RecordedShow& reference, const RecordedShow& show
 
 }  // namespace
 
+bool is_paper(std::string_view format) {
+    return format == "certificate" || std::ranges::find(kPapers, format) != kPapers.end();
+}
+
+void complete_from(const Manifest& manifest, RecordedShow& show) {
+    show.limits = manifest.limits;
+    show.airspace = manifest.airspace;
+    show.origin = manifest.origin;
+    show.endurance_s = manifest.endurance_s;
+    Points pads_m;
+    for (const ManifestDrone& drone : manifest.drones) pads_m.push_back(drone.pad_m);
+    state_missing_places(show, pads_m);
+}
+
+Problems disagreement_of_separations(const RecordedShow& reference, double reference_m, const RecordedShow& show,
+                                     double separation_m, const Limits& limits) {
+    if (show.drones.size() < 2) return {};
+    const double allowed_m = 2.0 * allowed_distance_m(reference.rounding, show.rounding, limits) + kResolved_m;
+    if (std::abs(separation_m - reference_m) <= allowed_m) return {};
+    return {"the smallest separation is " + shown(separation_m) + " m, in " + reference.format + " " +
+            shown(reference_m) + " m (" + shown(allowed_m) + " m may differ)"};
+}
+
 Problems disagreement_with_manifest(const RecordedShow& show, const Manifest& manifest) {
     Problems problems = drones_disagree(show, manifest);
     const auto require = [&](bool same, const std::string& what) {
@@ -201,11 +233,7 @@ Problems disagreement_of_shows(const RecordedShow& reference, const RecordedShow
     const double length_s = std::max(reference.duration_s, show.duration_s);
     const auto times = static_cast<std::size_t>(
         std::clamp(std::min(length_s / kSampleEvery_s, kMostSamples / fleet), kFewestTimes, kMostSamples));
-    const double fastest_mps =
-        limits.plane ? limits.plane->airspeed_max_mps
-                     : std::hypot(limits.speed_horizontal_mps, std::max(limits.speed_up_mps, limits.speed_down_mps));
-    const double allowed_m = space_m(reference.rounding) + space_m(show.rounding) + kNumeric +
-                             (reference.rounding.time_s + show.rounding.time_s) * fastest_mps;
+    const double allowed_m = allowed_distance_m(reference.rounding, show.rounding, limits);
     double worst_m = 0.0, worst_s = 0.0;
     std::size_t worst_drone = 0;
     for (std::size_t d = 0; d < show.drones.size(); ++d) {

@@ -1,7 +1,10 @@
 #pragma once
+#include <array>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "export/bytes/file_bytes.hpp"
 #include "export/certificate_json.hpp"
 #include "export/manifest_json.hpp"
 #include "export/record/recorded_show.hpp"
@@ -12,6 +15,13 @@
 namespace aerogram::exporter {
 
 using Problems = std::vector<std::string>;
+
+/// Files that nobody flies, beside the certificate: named as formats in the manifest, but no formats.
+inline constexpr std::array<std::string_view, 2> kPapers{"report", "pads"};
+[[nodiscard]] bool is_paper(std::string_view format);
+
+/// Gives a show the manifest's limits, airspace, origin and endurance, and the pads where it states no places.
+void complete_from(const Manifest& manifest, RecordedShow& show);
 
 /// A format's show against what the manifest says: show hash, certified mark, drones with names and pads, stated
 /// rounding; trajectories also in limits, airspace, origin, endurance and length; others in the origin they hold, to
@@ -24,6 +34,14 @@ using Problems = std::vector<std::string>;
 /// @param reference  timed and well-formed, as many drones as `show`; its format's name appears in problems.
 [[nodiscard]] Problems disagreement_of_shows(const RecordedShow& reference, const RecordedShow& show,
                                              const Limits& limits, const geo::ShowOrigin& origin);
+
+/// Two shows' smallest separations, as judged: they differ by no more than rounding, fit and times of both allow.
+[[nodiscard]] Problems disagreement_of_separations(const RecordedShow& reference, double reference_m,
+                                                   const RecordedShow& show, double separation_m, const Limits& limits);
+
+/// report.json against the manifest: hash, certified mark, drones and the smallest separation. Other papers have
+/// nothing that can be read back.
+[[nodiscard]] Problems disagreement_of_paper(const FileBytes& file, const Manifest& manifest);
 
 /// The certificate against the manifest, and each act's claims against what `trajectories` really do then: separation
 /// and the pair that is closest, speeds, acceleration, jerk, altitudes, margins. A claim may be milder than the truth,

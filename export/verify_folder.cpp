@@ -46,42 +46,54 @@ std::string alteration(const ManifestFile& listed, const std::string& bytes) {
 
 }  // namespace
 
-Result<FolderFiles> read_show_folder(const fs::path& folder, const Run& run) {
-    auto listing = list(folder);
-    if (!listing) return listing.error();
+Result<FolderListing> list_show_folder(const fs::path& folder) {
+    auto found = list(folder);
+    if (!found) return found.error();
     const fs::path manifest_file = folder / kManifestName;
-    if (!listing->files.contains(std::string(kManifestName))) {
+    if (found->files.erase(std::string(kManifestName)) == 0) {
         return Error{ErrorCode::invalid_input, manifest_file.string() + ": missing: not a show folder"};
     }
     const auto text = read_file(manifest_file);
     if (!text) return text.error();
     auto manifest = read_manifest(*text);
     if (!manifest) return Error{ErrorCode::invalid_input, (folder / manifest.error().message).string()};
-    listing->files.erase(std::string(kManifestName));
 
-    FolderFiles result{std::move(*manifest), {}, {}};
-    std::set<std::string> broken_formats;
+    FolderListing listing{std::move(*manifest), {}, {}};
     const auto problem = [&](const std::string& path, const std::string& what) {
-        result.problems.push_back((folder / path).string() + ": " + what);
+        listing.problems.push_back((folder / path).string() + ": " + what);
     };
-    for (std::size_t i = 0; i < result.manifest.files.size(); ++i) {
-        if (run.stopped()) return stopped_error();
-        run.report("reading files", static_cast<double>(i) / static_cast<double>(result.manifest.files.size()));
-        const ManifestFile& listed = result.manifest.files[i];
-        std::string wrong = "missing";
-        if (listing->files.erase(listed.path) > 0) {
-            auto bytes = read_file(folder / listed.path);
-            if (!bytes) return bytes.error();
-            wrong = alteration(listed, *bytes);
-            if (wrong.empty()) result.by_format[listed.format].push_back({listed.path, std::move(*bytes)});
-        }
-        if (wrong.empty()) continue;
-        problem(listed.path, wrong);
-        broken_formats.insert(listed.format);
+    for (const ManifestFile& file : listing.manifest.files) {
+        if (found->files.erase(file.path) > 0) continue;
+        listing.missing.push_back(file.path);
+        problem(file.path, "missing");
     }
-    for (const std::string& path : listing->files) problem(path, "not listed in the manifest");
-    for (const std::string& path : listing->odd) problem(path, "not a plain file");
-    for (const std::string& format : broken_formats) result.by_format.erase(format);
+    for (const std::string& path : found->files) problem(path, "not listed in the manifest");
+    for (const std::string& path : found->odd) problem(path, "not a plain file");
+    return listing;
+}
+
+Result<IntactFiles> intact_files(const fs::path& folder, const FolderListing& listing, std::string_view format,
+                                 const Run& run) {
+    IntactFiles result;
+    bool complete = true;
+    for (const ManifestFile& file : listing.manifest.files) {
+        if (file.format != format) continue;
+        if (run.stopped()) return stopped_error();
+        if (std::ranges::find(listing.missing, file.path) != listing.missing.end()) {
+            complete = false;
+            continue;
+        }
+        auto bytes = read_file(folder / file.path);
+        if (!bytes) return bytes.error();
+        const std::string wrong = alteration(file, *bytes);
+        if (wrong.empty()) {
+            result.files.push_back({file.path, std::move(*bytes)});
+        } else {
+            complete = false;
+            result.problems.push_back((folder / file.path).string() + ": " + wrong);
+        }
+    }
+    if (!complete) result.files.clear();
     return result;
 }
 

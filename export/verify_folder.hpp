@@ -1,6 +1,5 @@
 #pragma once
 #include <filesystem>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -10,17 +9,24 @@
 
 namespace aerogram::exporter {
 
-/// A show folder's files as its manifest lists them.
-struct FolderFiles {
+/// A show folder against its manifest, but for what is in the files.
+struct FolderListing {
     Manifest manifest;
-    /// Intact files by format, in the manifest's order; a format with an altered or missing file is not here.
-    std::map<std::string, std::vector<FileBytes>> by_format;
-    std::vector<std::string> problems;  ///< each names a file: altered, missing, not listed, no plain file
+    std::vector<std::string> missing;   ///< paths of the manifest that the folder does not hold
+    std::vector<std::string> problems;  ///< each names a file: missing, not listed, no plain file
 };
 
-/// Reads a show folder and checks every file against the manifest, and the folder for files the manifest does not list.
-/// Errors: io when the folder cannot be listed or a file not be read; invalid_input naming manifest.json when it is
-/// missing or damaged; stopped.
-Result<FolderFiles> read_show_folder(const std::filesystem::path& folder, const Run& run);
+/// Errors: io when the folder cannot be listed or its manifest not be read; invalid_input naming manifest.json when it
+/// is missing or damaged.
+Result<FolderListing> list_show_folder(const std::filesystem::path& folder);
+
+/// The files of one format, each as the manifest has it to the last bit.
+struct IntactFiles {
+    std::vector<FileBytes> files;       ///< in the manifest's order; empty when one of the format is altered or missing
+    std::vector<std::string> problems;  ///< each names an altered file
+};
+/// Errors: io when a file cannot be read; stopped.
+Result<IntactFiles> intact_files(const std::filesystem::path& folder, const FolderListing& listing,
+                                 std::string_view format, const Run& run);
 
 }  // namespace aerogram::exporter

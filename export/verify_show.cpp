@@ -6,11 +6,11 @@
 #include <optional>
 
 #include "export/bytes/files.hpp"
-#include "export/bytes/sha256.hpp"
 #include "export/certificate_json.hpp"
 #include "export/formats.hpp"
 #include "export/verify_agreement.hpp"
 #include "export/verify_folder.hpp"
+#include "export/verify_loose.hpp"
 
 namespace aerogram::exporter {
 namespace {
@@ -19,95 +19,33 @@ namespace fs = std::filesystem;
 
 constexpr double kNumeric = 1e-6;
 
-Error named(const std::string& place, const Error& error) {
-    return {error.code, place + ": " + error.message};
-}
-
-/// The manifest of the show folder that a file lies in, when it lists the file.
-struct Surrounding {
-    Manifest manifest;
-    bool same_bytes = false;
-};
-std::optional<Surrounding> manifest_around(const fs::path& path, const std::string& bytes) {
-    std::error_code failure;
-    const fs::path file = fs::absolute(path, failure);
-    for (const fs::path& folder : {file.parent_path(), file.parent_path().parent_path()}) {
-        const auto text = read_file(folder / kManifestName);
-        if (!text) continue;
-        auto manifest = read_manifest(*text);
-        if (!manifest) continue;
-        const auto listed =
-            std::ranges::find(manifest->files, file.lexically_relative(folder).generic_string(), &ManifestFile::path);
-        if (listed == manifest->files.end()) continue;
-        const bool same = listed->sha256 == sha256_hex(bytes);
-        return Surrounding{std::move(*manifest), same};
-    }
-    return std::nullopt;
-}
-
-void take_pads(RecordedShow& show, const Manifest& manifest) {
-    Points pads_m;
-    for (const ManifestDrone& drone : manifest.drones) pads_m.push_back(drone.pad_m);
-    state_missing_places(show, pads_m);
-}
-
-void take_limits(RecordedShow& show, const Manifest& manifest) {
-    show.limits = manifest.limits;
-    show.airspace = manifest.airspace;
-    show.origin = manifest.origin;
-    show.endurance_s = manifest.endurance_s;
-}
-
-Result<Verified> verify_file(const fs::path& path, const Run& run) {
-    auto bytes = read_file(path);
-    if (!bytes) return bytes.error();
-    const std::string name = path.filename().generic_string();
-    const Format* format = recognise(name, *bytes);
-    if (format == nullptr) return Error{ErrorCode::invalid_input, path.string() + ": not a format that can be read"};
-    const auto around = manifest_around(path, *bytes);
-    const std::array files{FileBytes{name, std::move(*bytes)}};
-    auto show = format->read(files);
-    if (!show) return named(path.string(), show.error());
-    if (around) {
-        take_limits(*show, around->manifest);
-        take_pads(*show, around->manifest);
-    }
-    auto judgement = judge(*show, {}, run);
-    if (!judgement)
-        return judgement.error().code == ErrorCode::stopped ? judgement.error()
-                                                            : named(path.string(), judgement.error());
-    if (around) judgement->limits_from = "the manifest beside it";
-    if (around && !around->same_bytes)
-        judgement->problems.emplace_back("its SHA-256 differs from the manifest beside it");
-    if (!show->certified.value_or(true))
-        judgement->problems.emplace_back("the file says that this show is not certified");
-    return Verified{{std::move(*judgement)}, {}};
-}
-
 /// One folder on its way to a verdict.
 class FolderCheck {
   public:
-    FolderCheck(const fs::path& folder, const FolderFiles& files, const Run& run)
-        : folder_(folder), manifest_(files.manifest), files_(files), run_(run) {
-        verified_.problems = files.problems;
+    FolderCheck(const fs::path& folder, const FolderListing& listing, const Run& run)
+        : folder_(folder), listing_(listing), manifest_(listing.manifest), run_(run) {
+        verified_.problems = listing.problems;
     }
 
     Result<Verified> check() {
         for (const ManifestFile& file : manifest_.files) {
             const auto is_listed = std::ranges::find(manifest_.formats, file.format, &ManifestFormat::name);
-            if (is_listed == manifest_.formats.end() && file.format != "certificate") {
+            if (is_listed == manifest_.formats.end() && !is_paper(file.format)) {
                 problem(file.path, "its format \"" + file.format + "\" is not among the manifest's formats");
             }
         }
         for (const ManifestFormat& format : manifest_.formats) {
-            const auto files = files_.by_format.find(format.name);
-            if (files == files_.by_format.end()) {
+            const auto files = load(format.name);
+            if (!files) return files.error();
+            if (files->empty()) {
                 check_absence(format);
-            } else if (const Status done = check_format(format, files->second); !done) {
+            } else if (const Status done = check_format(format, *files); !done) {
                 return done.error();
             }
         }
-        if (const Status done = check_certificate(); !done) return done.error();
+        for (const auto check : {&FolderCheck::check_certificate, &FolderCheck::check_papers}) {
+            if (const Status done = (this->*check)(); !done) return done.error();
+        }
         if (verified_.shows.empty() && verified_.problems.empty())
             problem(std::string(kManifestName), "lists nothing that flies");
         if (!manifest_.certified) problem(std::string(kManifestName), "says that this show is not certified");
@@ -121,6 +59,14 @@ class FolderCheck {
     }
     void problems(const std::string& path, const Problems& all) {
         for (const std::string& what : all) problem(path, what);
+    }
+
+    /// A format's files, intact; what is wrong with others is noted.
+    Result<std::vector<FileBytes>> load(std::string_view format) {
+        auto loaded = intact_files(folder_, listing_, format, run_);
+        if (!loaded) return loaded.error();
+        verified_.problems.insert(verified_.problems.end(), loaded->problems.begin(), loaded->problems.end());
+        return std::move(loaded->files);
     }
 
     /// A written format must have files; altered and missing ones were named already.
@@ -145,7 +91,7 @@ class FolderCheck {
             return Done{};
         }
         problems(path, disagreement_with_manifest(*show, manifest_));
-        take_pads(*show, manifest_);
+        complete_from(manifest_, *show);
         const Status sound = well_formed(*show);
         if (!sound) {
             problem(path, sound.error().message);
@@ -155,12 +101,14 @@ class FolderCheck {
             problems(path, disagreement_of_shows(*reference_, *show, manifest_.limits, manifest_.origin));
         }
         Status judged = judge_against_manifest(*show, *format, path);
-        if (judged && show->timed && !reference_) reference_ = std::move(*show);
+        if (judged && show->timed && !reference_ && !verified_.shows.empty()) {
+            reference_ = std::move(*show);
+            reference_separation_m_ = verified_.shows.back().min_separation_m;
+        }
         return judged;
     }
 
-    Status judge_against_manifest(RecordedShow show, const Format& format, const std::string& path) {
-        take_limits(show, manifest_);
+    Status judge_against_manifest(RecordedShow& show, const Format& format, const std::string& path) {
         const geo::ShowFrame frame(manifest_.origin);
         for (std::size_t d = 0; d < std::min(show.drones.size(), manifest_.drones.size()); ++d) {
             RecordedDrone& drone = show.drones[d];
@@ -179,6 +127,10 @@ class FolderCheck {
         }
         judgement->limits_from = kManifestName;
         check_claims(*judgement, format);
+        if (reference_ && judgement->separation_claimed) {
+            problems(path, disagreement_of_separations(*reference_, reference_separation_m_, show,
+                                                       judgement->min_separation_m, manifest_.limits));
+        }
         verified_.shows.push_back(std::move(*judgement));
         return Done{};
     }
@@ -201,15 +153,16 @@ class FolderCheck {
     }
 
     Status check_certificate() {
-        const auto files = files_.by_format.find("certificate");
-        if (files == files_.by_format.end()) {
+        const auto files = load("certificate");
+        if (!files) return files.error();
+        if (files->empty()) {
             const bool listed =
                 std::ranges::find(manifest_.files, "certificate", &ManifestFile::format) != manifest_.files.end();
             if (!listed) problem(std::string(kManifestName), "lists no certificate");
             return Done{};
         }
-        const std::string& path = files->second.front().path;
-        const auto certificate = read_certificate(files->second.front().bytes);
+        const std::string& path = files->front().path;
+        const auto certificate = read_certificate(files->front().bytes);
         if (!certificate) {
             problem(path, certificate.error().message);
             return Done{};
@@ -221,22 +174,34 @@ class FolderCheck {
         return Done{};
     }
 
+    /// Report and pad sheet: intact, and the report's claims are the manifest's.
+    Status check_papers() {
+        for (const std::string_view paper : kPapers) {
+            const auto files = load(paper);
+            if (!files) return files.error();
+            for (const FileBytes& file : *files) problems(file.path, disagreement_of_paper(file, manifest_));
+        }
+        return Done{};
+    }
+
     const fs::path& folder_;
+    const FolderListing& listing_;
     const Manifest& manifest_;
-    const FolderFiles& files_;
     const Run& run_;
     std::optional<RecordedShow> reference_;  ///< the first timed format: trajectories, where present
+    double reference_separation_m_ = 0.0;
     Verified verified_;
 };
 
 Result<Verified> verify_folder(const fs::path& folder, const Run& run) {
-    const auto files = read_show_folder(folder, run);
-    if (!files) {
+    const auto listing = list_show_folder(folder);
+    if (!listing) {
         const bool ours = fs::exists(folder / kManifestName) || fs::exists(folder / kCertificateName);
-        if (!ours || files.error().code != ErrorCode::invalid_input) return files.error();
-        return Verified{{}, {files.error().message}};  // a show folder that was tampered with
+        if (!ours) return verify_loose_folder(folder, run);
+        if (listing.error().code != ErrorCode::invalid_input) return listing.error();
+        return Verified{{}, {listing.error().message}};  // a show folder that was tampered with
     }
-    return FolderCheck(folder, *files, run).check();
+    return FolderCheck(folder, *listing, run).check();
 }
 
 }  // namespace
@@ -249,7 +214,7 @@ Result<Verified> verify_path(const fs::path& path, const Run& run) {
     std::error_code failure;
     const fs::file_status status = fs::status(path, failure);
     if (!fs::exists(status)) return Error{ErrorCode::io, path.string() + ": does not exist"};
-    return fs::is_directory(status) ? verify_folder(path, run) : verify_file(path, run);
+    return fs::is_directory(status) ? verify_folder(path, run) : verify_loose({&path, 1}, run);
 }
 
 }  // namespace aerogram::exporter

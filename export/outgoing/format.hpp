@@ -41,6 +41,7 @@ struct Format {
     bool (*recognises)(std::string_view path, std::string_view first_bytes);
     /// Why this show cannot leave in this format ("more than 5,000 drones a file"), or empty.
     std::string (*unsuited)(const OutgoingShow&);
+    bool per_drone = false;  ///< a file a drone: only all of them together are a show
 };
 
 }  // namespace aerogram::exporter
