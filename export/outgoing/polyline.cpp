@@ -12,29 +12,38 @@ constexpr double kRoundoff_m = 1e-9;
 
 /// Whether the straight line from corner `from` to corner `to` passes all between within tolerance_m.
 bool passes(std::span<const Corner> corners, std::size_t from, std::size_t to, double tolerance_m) {
-    const Corner &a = corners[from], &b = corners[to];
-    const double length = static_cast<double>(b.time_ms - a.time_ms);
+    const Corner& a = corners[from];
+    const Vec3 per_ms =
+        (corners[to].place_m - a.place_m) * (1.0 / static_cast<double>(corners[to].time_ms - a.time_ms));
+    const auto near = [&](std::size_t k) {
+        const Vec3 off = corners[k].place_m - a.place_m - static_cast<double>(corners[k].time_ms - a.time_ms) * per_ms;
+        return glm::dot(off, off) <= tolerance_m * tolerance_m;
+    };
+    const std::size_t middle = from + (to - from) / 2;  // where curves are farthest off
+    if (middle > from && !near(middle)) return false;
     for (std::size_t k = from + 1; k < to; ++k) {
-        const double u = static_cast<double>(corners[k].time_ms - a.time_ms) / length;
-        const Vec3 off = corners[k].place_m - (a.place_m + u * (b.place_m - a.place_m));
-        if (glm::dot(off, off) > tolerance_m * tolerance_m) return false;
+        if (!near(k)) return false;
     }
     return true;
 }
 
-/// The farthest corner that a straight line from `from` reaches: doubling, then halving.
-std::size_t reach(std::span<const Corner> corners, std::size_t from, double tolerance_m) {
-    const std::size_t last = corners.size() - 1;
-    std::size_t good = from + 1, step = 1;
-    while (good < last) {
-        const std::size_t next = std::min(last, good + step);
-        if (!passes(corners, from, next, tolerance_m)) break;
-        good = next;
-        step *= 2;
+/// A corner that a straight line from `from` reaches, when it does not reach the next: from a first guess on the steps
+/// grow, then they are halved. @param guess  how many corners on, >= 1.
+std::size_t reach(std::span<const Corner> corners, std::size_t from, std::size_t guess, double tolerance_m) {
+    const std::size_t end = corners.size();
+    std::size_t good = from + 1, bad = end;
+    for (std::size_t to = from + std::max<std::size_t>(guess, 2), step = 1 + guess / 8; to < end; step *= 2) {
+        if (!passes(corners, from, to, tolerance_m)) {
+            bad = to;
+            break;
+        }
+        good = to;
+        if (to == end - 1) break;
+        to = std::min(end - 1, to + step);
     }
-    for (std::size_t bad = std::min(last + 1, good + step); bad - good > 1;) {
+    while (bad - good > 1) {
         const std::size_t middle = good + (bad - good) / 2;
-        (middle <= last && passes(corners, from, middle, tolerance_m) ? good : bad) = middle;
+        (passes(corners, from, middle, tolerance_m) ? good : bad) = middle;
     }
     return good;
 }
@@ -52,7 +61,10 @@ std::optional<Millis> sampling_step_ms(double acceleration_mps2, double allowed_
 std::vector<Millis> sampling_times(Millis duration_ms, Millis step_ms) {
     AEROGRAM_REQUIRE(duration_ms > 0 && step_ms > 0, duration_ms, step_ms);
     std::vector<Millis> times;
+    times.reserve(static_cast<std::size_t>(duration_ms / step_ms) + 2);
     for (Millis t = 0; t < duration_ms; t += step_ms) times.push_back(t);
+    const Millis last_ms = duration_ms - times.back();
+    if (2 * last_ms < step_ms && times.size() > 1) times.back() = duration_ms - (step_ms + last_ms + 1) / 2;
     times.push_back(duration_ms);
     return times;
 }
@@ -68,8 +80,10 @@ std::vector<Corner> sampled(const Flight& flight, std::span<const Millis> times_
 std::vector<Corner> thinned(std::span<const Corner> corners, double tolerance_m) {
     if (corners.size() < 3) return {corners.begin(), corners.end()};
     std::vector<Corner> kept{corners.front()};
-    for (std::size_t at = 0; at + 1 < corners.size();) {
-        at = reach(corners, at, tolerance_m + kRoundoff_m);
+    for (std::size_t at = 0, strode = 1; at + 1 < corners.size();) {
+        const std::size_t next = reach(corners, at, strode, tolerance_m + kRoundoff_m);
+        strode = next - at;
+        at = next;
         kept.push_back(corners[at]);
     }
     return kept;

@@ -6,6 +6,7 @@
 #include "export/bytes/decimal.hpp"
 #include "export/bytes/zip.hpp"
 #include "export/bytes/zip_peek.hpp"
+#include "export/outgoing/polyline.hpp"
 #include "export/skybrush/csv_zip_reader.hpp"
 #include "export/skybrush/skybrush_frame.hpp"
 #include "geo/units.hpp"
@@ -32,7 +33,7 @@ struct RowTime {
 
 std::vector<RowTime> rows_of(const OutgoingFacts& facts) {
     std::vector<RowTime> rows;
-    for (const Millis time_ms : csv_row_times(facts.duration_ms, *csv_row_step_ms(facts))) {
+    for (const Millis time_ms : sampling_times(facts.duration_ms, *csv_row_step_ms(facts))) {
         rows.push_back({{}, seconds_from_ms(time_ms)});
         append_units(rows.back().text, time_ms, 0);
     }
@@ -105,16 +106,6 @@ std::optional<Millis> csv_row_step_ms(const OutgoingFacts& facts) {
         if (facts.acceleration_mps2 * dt_s * dt_s / 4.0 <= allowed_m) return step_ms;
     }
     return std::nullopt;
-}
-
-std::vector<Millis> csv_row_times(Millis duration_ms, Millis step_ms) {
-    AEROGRAM_REQUIRE(duration_ms > 0 && step_ms > 0, duration_ms, step_ms);
-    std::vector<Millis> times;
-    for (Millis t = 0; t < duration_ms; t += step_ms) times.push_back(t);
-    const Millis last_ms = duration_ms - times.back();
-    if (2 * last_ms < step_ms && times.size() > 1) times.back() = duration_ms - (step_ms + last_ms + 1) / 2;
-    times.push_back(duration_ms);
-    return times;
 }
 
 const Format& csv_format() {

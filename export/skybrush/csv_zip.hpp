@@ -12,10 +12,6 @@ inline constexpr double kCsvPairCost_m = 0.05;
 /// a dt² / 8 and two rounded points. Absent when none does.
 [[nodiscard]] std::optional<Millis> csv_row_step_ms(const OutgoingFacts& facts);
 
-/// Row times: multiples of the step and the exact end. An end closer than half a step to its predecessor moves that one
-/// to the middle of the last two intervals: none is below half a step, and rounding makes no false speeds.
-[[nodiscard]] std::vector<Millis> csv_row_times(Millis duration_ms, Millis step_ms);
-
 /// Writes the header `Time [msec],x [m],y [m],z [m],Red,Green,Blue`, whole milliseconds, three decimals, X front, Y
 /// left, Z up, 8-bit linear colours, linear from row to row. Yaw, events, cues, origin, limits and the hash are lost.
 /// Reads other programs' archives too: byte order mark, CRLF, header in any case, further columns, blank last lines.

@@ -98,21 +98,6 @@ TEST(CsvZip, RowStepKeepsAPairWithinTheMargin) {
     EXPECT_EQ(csv_row_step_ms(PlannedShow(plan).facts()), 125);
 }
 
-TEST(CsvZip, RowTimesAreUniformWithTheExactEnd) {
-    EXPECT_THAT(csv_row_times(1'000, 250), ElementsAre(0, 250, 500, 750, 1'000));
-    EXPECT_THAT(csv_row_times(900, 250), ElementsAre(0, 250, 500, 750, 900));
-    EXPECT_THAT(csv_row_times(751, 250), ElementsAre(0, 250, 500, 625, 751));
-    EXPECT_THAT(csv_row_times(3, 250), ElementsAre(0, 3));
-    for (Millis duration = 250; duration < 1'600; ++duration) {
-        const auto times = csv_row_times(duration, 250);
-        for (std::size_t k = 1; k < times.size(); ++k) {
-            EXPECT_GE(times[k] - times[k - 1], 125) << duration;
-            EXPECT_LE(times[k] - times[k - 1], 250) << duration;
-        }
-        EXPECT_EQ(times.back(), duration);
-    }
-}
-
 TEST(CsvZip, ReadsWhatOthersWrite) {
     const auto show = read(
         "\xEF\xBB\xBFtime [MSEC],X [m],Y [m],Z [m],red,GREEN,blue,Yaw [deg]\r\n"
