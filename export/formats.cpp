@@ -5,7 +5,9 @@
 
 #include "export/exact/trajectories_bin.hpp"
 #include "export/preview/preview_html.hpp"
+#include "export/scene/glb.hpp"
 #include "export/skybrush/csv_zip.hpp"
+#include "export/skybrush/skyb.hpp"
 #include "export/skybrush/skyc.hpp"
 #include "export/waypoint/qgc_plan.hpp"
 #include "export/waypoint/waypoints.hpp"
@@ -13,8 +15,8 @@
 namespace aerogram::exporter {
 
 std::span<const Format> formats() {
-    static const std::array kFormats{trajectories_format(), csv_format(),       skyc_format(),
-                                     qgc_plan_format(),     waypoints_format(), preview_format()};
+    static const std::array kFormats{trajectories_format(), csv_format(),      skyc_format(),      skyb_format(),
+                                     glb_format(),          qgc_plan_format(), waypoints_format(), preview_format()};
     return kFormats;
 }
 
