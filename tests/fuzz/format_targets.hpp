@@ -6,6 +6,8 @@
 #include "export/bytes/zip.hpp"
 #include "export/skybrush/csv_zip_reader.hpp"
 #include "export/skybrush/light_program.hpp"
+#include "export/skybrush/skyb.hpp"
+#include "export/skybrush/skyb_layout.hpp"
 #include "export/skybrush/skyc.hpp"
 #include "export/waypoint/qgc_plan.hpp"
 #include "export/waypoint/waypoints.hpp"
@@ -34,6 +36,14 @@ inline void try_archive(Reader read, const std::string& path, const std::string&
 
 inline void try_skyc(std::string_view bytes) {
     try_archive(read_skyc, "a.skyc", "show.json", bytes);
+}
+/// Once as it is, once with a checksum that fits.
+inline void try_skyb(std::string_view bytes) {
+    try_reader(read_skyb, "skyb/a.skyb", std::string(bytes));
+    if (bytes.size() < skyb::kCrcAt + skyb::kCrcBytes) return;
+    std::string sealed(bytes), crc;
+    put(crc, skyb::checksum(bytes));
+    try_reader(read_skyb, "skyb/a.skyb", sealed.replace(skyb::kCrcAt, skyb::kCrcBytes, crc));
 }
 inline void try_csv_zip(std::string_view bytes) {
     try_archive(read_csv_zip, "csv.zip", "a.csv", bytes);

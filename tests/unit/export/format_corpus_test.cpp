@@ -37,6 +37,9 @@ void replay_corpus(Target target, const std::string& name) {
 TEST(FormatCorpus, SkycIsHandled) {
     replay_corpus(fuzz::try_skyc, "skyc");
 }
+TEST(FormatCorpus, SkybIsHandled) {
+    replay_corpus(fuzz::try_skyb, "skyb");
+}
 TEST(FormatCorpus, CsvZipIsHandled) {
     replay_corpus(fuzz::try_csv_zip, "csv_zip");
 }
