@@ -4,19 +4,23 @@
 #include <array>
 
 #include "export/exact/trajectories_bin.hpp"
+#include "export/maps/czml.hpp"
+#include "export/maps/kmz.hpp"
 #include "export/preview/preview_html.hpp"
 #include "export/scene/glb.hpp"
 #include "export/skybrush/csv_zip.hpp"
 #include "export/skybrush/skyb.hpp"
 #include "export/skybrush/skyc.hpp"
+#include "export/vviz/vviz.hpp"
 #include "export/waypoint/qgc_plan.hpp"
 #include "export/waypoint/waypoints.hpp"
 
 namespace aerogram::exporter {
 
 std::span<const Format> formats() {
-    static const std::array kFormats{trajectories_format(), csv_format(),      skyc_format(),      skyb_format(),
-                                     glb_format(),          qgc_plan_format(), waypoints_format(), preview_format()};
+    static const std::array kFormats{trajectories_format(), csv_format(),       skyc_format(),   skyb_format(),
+                                     vviz_format(),         kmz_format(),       czml_format(),   glb_format(),
+                                     qgc_plan_format(),     waypoints_format(), preview_format()};
     return kFormats;
 }
 
