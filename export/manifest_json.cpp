@@ -231,6 +231,8 @@ Manifest manifest(const Field& root) {
         m.drones.push_back({d["name"].text(), {pad[0], pad[1], pad[2]}});
     }
     if (root["drone_count"].count() != m.drones.size()) root["drone_count"].wrong("is not the number of drones listed");
+    m.fleet = root["fleet"].count();
+    if (m.fleet < m.drones.size()) root["fleet"].wrong("is less than the number of drones listed");
     return m;
 }
 
@@ -254,6 +256,7 @@ std::string manifest_json(const Manifest& m) {
               {"manifest_sha256", std::string(kHashDigits, '0')},
               {"certified", m.certified},
               {"drone_count", m.drones.size()},
+              {"fleet", m.fleet},
               {"duration_s", m.duration_s},
               {"origin", to_json(m.origin)},
               {"limits", to_json(m.limits)},

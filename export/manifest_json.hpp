@@ -48,6 +48,7 @@ struct Manifest {
     geo::Airspace airspace;
     std::vector<ManifestFormat> formats;
     std::vector<ManifestFile> files;  ///< every file of the folder but the manifest itself
+    std::size_t fleet = 0;            ///< drones of the whole show; more than `drones`: a part of it went out
     std::vector<ManifestDrone> drones;
 };
 

@@ -140,6 +140,8 @@ Result<Flown> plan_standing(const Mission& mission, const Run& run) {
     return flown;
 }
 
+}  // namespace
+
 Error refusal(const Mission& mission, const Certificate& certificate) {
     std::string message = mission.file.string() + ": this show cannot be flown within its limits";
     for (const std::string& violation : certificate.violations) message += "\n  " + violation;
@@ -151,8 +153,6 @@ Error refusal(const Mission& mission, const Certificate& certificate) {
     if (obstructed) message += "\n  (arrive.method = \"steered\" leads groups around obstacles)";
     return {ErrorCode::infeasible, message};
 }
-
-}  // namespace
 
 Result<FlightPlan> plan(const Mission& mission, const PlanOptions& options, const Run& run) {
     auto flown = mission.carrier ? plan_riding(mission, run) : plan_standing(mission, run);

@@ -17,4 +17,7 @@ struct PlanOptions {
 /// do; stopped.
 Result<FlightPlan> plan(const Mission& mission, const PlanOptions& options, const Run& run);
 
+/// Why a plan that is not certified cannot be flown: what `plan` says when it fails for that.
+[[nodiscard]] Error refusal(const Mission& mission, const Certificate& certificate);
+
 }  // namespace aerogram::planner

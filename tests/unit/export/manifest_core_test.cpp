@@ -31,6 +31,7 @@ Manifest example() {
     m.files = {{"trajectories.bin", "trajectories", 3'584, sha256_hex("a"), "exact", 1.0 / 3.0},
                {"qgc/drone-001.plan", "qgc", 12, sha256_hex("b"), "none: separation not claimed", std::nullopt},
                {"certificate.json", "certificate", 0, sha256_hex(""), std::nullopt, std::nullopt}};
+    m.fleet = 2;
     m.drones = {{"drone-001", {0.0, -20.0, 0.0}}, {"drone-002", {2.5, -20.25, 1e-3}}};
     return m;
 }
