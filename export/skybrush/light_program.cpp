@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "export/skybrush/light_loops.hpp"
+
 namespace aerogram::exporter {
 namespace {
 
@@ -12,33 +14,61 @@ constexpr unsigned kRgb = 0, kGray = 1, kBlack = 2, kWhite = 3;
 
 constexpr Rgb8 kDark{0, 0, 0};
 
+/// A step of a program: what the lamp does for some ticks.
+struct Step {
+    bool fade = false;
+    Rgb8 color;
+    std::uint64_t ticks = 0;
+};
+
+/// Steps without idle ones, and their bytes.
 class Writer {
   public:
-    void set(const Rgb8& color, std::uint64_t ticks) { lamp(kSet, color, ticks); }
-    void fade(const Rgb8& color, std::uint64_t ticks) { lamp(kFade, color, ticks); }
-    /// Shows `color` now without spending time, unless it is shown already.
-    void jump(const Rgb8& color) {
-        if (color != now_) set(color, 0);
+    void set(const Rgb8& color, std::uint64_t ticks) { add({false, color, ticks}); }
+    void fade(const Rgb8& from, const Rgb8& to, std::uint64_t ticks) {
+        if (from == to) return set(to, ticks);
+        if (now() != from) set(from, 0);
+        add({true, to, ticks});
     }
+    /// @returns the program, which ends with black.
     std::vector<std::uint8_t> finished() && {
-        set(kDark, 1);
-        bytes_.push_back(kEnd);
-        return std::move(bytes_);
+        std::vector<std::string> texts;
+        texts.reserve(steps_.size());
+        for (const Step& step : steps_) texts.push_back(text_of(step));
+        std::vector<std::uint8_t> program = looped(texts);
+        program.insert(program.end(), {kSet + kBlack, 1, kEnd});
+        return program;
     }
 
   private:
-    void lamp(unsigned code, const Rgb8& c, std::uint64_t ticks) {
+    [[nodiscard]] Rgb8 now() const { return steps_.empty() ? kDark : steps_.back().color; }
+
+    /// What holds the colour that is shown already lengthens the step before.
+    void add(const Step& step) {
+        const bool holds = !step.fade && !steps_.empty() && !steps_.back().fade && steps_.back().color == step.color;
+        if (holds) {
+            steps_.back().ticks += step.ticks;
+        } else {
+            steps_.push_back(step);
+        }
+    }
+
+    static std::string text_of(const Step& step) {
+        const Rgb8& c = step.color;
         const bool gray = c.r == c.g && c.g == c.b;
         const unsigned spelling = !gray ? kRgb : c.r == 0 ? kBlack : c.r == 255 ? kWhite : kGray;
-        bytes_.push_back(static_cast<std::uint8_t>(code + spelling));
-        if (spelling == kRgb) bytes_.insert(bytes_.end(), {c.r, c.g, c.b});
-        if (spelling == kGray) bytes_.push_back(c.r);
-        for (; ticks > 0x7F; ticks >>= 7) bytes_.push_back(static_cast<std::uint8_t>(0x80u | (ticks & 0x7Fu)));
-        bytes_.push_back(static_cast<std::uint8_t>(ticks));
-        now_ = c;
+        std::string text;
+        const auto put = [&](std::uint64_t byte) { text += static_cast<char>(byte); };
+        put((step.fade ? kFade : kSet) + spelling);
+        if (spelling == kRgb || spelling == kGray) put(c.r);
+        if (spelling == kRgb) put(c.g), put(c.b);
+        std::uint64_t ticks = step.ticks;
+        for (; ticks > 0x7F; ticks >>= 7U) put(0x80U | (ticks & 0x7FU));
+        put(ticks);
+        return text;
     }
-    std::vector<std::uint8_t> bytes_;
-    Rgb8 now_ = kDark;
+
+    std::vector<Step> steps_;
 };
 
 std::uint64_t tick_of(Millis time_ms) {
@@ -60,8 +90,7 @@ std::vector<std::uint8_t> light_program(std::span<const LightKey> keys, Millis d
         const Rgb8 color = quantised(keys[i].color);
         if (end == tick) continue;
         if (keys[i].fade && !last) {
-            out.jump(color);
-            out.fade(quantised(keys[i + 1].color), end - tick);
+            out.fade(color, quantised(keys[i + 1].color), end - tick);
         } else {
             out.set(color, end - tick);
         }

@@ -16,8 +16,10 @@ inline constexpr Millis kLightTickMs = 20;
 /// The program of one lamp. It ends with a set (black for one tick, `06 01 00`) at the show's end or at the last key,
 /// whichever is later, never on a fade.
 /// @param keys  in time order; times are rounded to ticks.
-/// Properties: (1) decoding gives the same light at every instant before the end, within 1/255 a component
-/// (2) loops and sleeps are not written.
+/// Properties: (1) decoding gives the same light at every instant before the end, within 1/255 a component (2) loops
+/// are at most four deep, of 2 to 255 rounds, and written where they make the program shorter (light_loops.hpp);
+/// sleeps are not written (3) a step that goes on with the colour before it is one step with it (4) at most 14 bytes a
+/// key and 9 more. Cost: linear in the keys: 10,000 drones of 500 keys take a second or two.
 [[nodiscard]] std::vector<std::uint8_t> light_program(std::span<const LightKey> keys, Millis duration_ms);
 
 /// What a program may make a reader do.
