@@ -119,7 +119,7 @@ struct Report {
     std::vector<ReportSeries> series;  ///< altitudes, speeds, acceleration, jerk; largest (lowest) up to the next time
     std::vector<double> nearest_m;  ///< the closest pair, at each of times_s, in the separation metric; infinite: none
     double histogram_step_m = 0.25;
-    std::vector<std::size_t> histogram;  ///< drone-instants in flight by distance to the nearest; last: all beyond
+    std::vector<std::size_t> histogram;       ///< drone-instants in flight by distance to the nearest; last: all beyond
     std::vector<OutgoingKeyframe> keyframes;  ///< without places
     std::vector<ReportEncounter> encounters;  ///< at most 20, closest first, one an approach
     std::vector<ReportEncounter> alignments;  ///< at most 20: one drone in the downwash of another
