@@ -9,6 +9,7 @@
 #include "export/skybrush/skyb.hpp"
 #include "export/skybrush/skyb_layout.hpp"
 #include "export/skybrush/skyc.hpp"
+#include "export/vviz/vviz_reader.hpp"
 #include "export/waypoint/qgc_plan.hpp"
 #include "export/waypoint/waypoints.hpp"
 #include "tests/fuzz/export_targets.hpp"
@@ -47,6 +48,9 @@ inline void try_skyb(std::string_view bytes) {
 }
 inline void try_csv_zip(std::string_view bytes) {
     try_archive(read_csv_zip, "csv.zip", "a.csv", bytes);
+}
+inline void try_vviz(std::string_view bytes) {
+    try_reader(read_vviz, "a.vviz", std::string(bytes));
 }
 inline void try_qgc_plan(std::string_view bytes) {
     try_reader(read_qgc_plan, "a.plan", std::string(bytes));

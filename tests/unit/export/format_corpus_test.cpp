@@ -46,6 +46,9 @@ TEST(FormatCorpus, CsvZipIsHandled) {
 TEST(FormatCorpus, LightProgramIsHandled) {
     replay_corpus(fuzz::try_light_program, "light_program");
 }
+TEST(FormatCorpus, VvizIsHandled) {
+    replay_corpus(fuzz::try_vviz, "vviz");
+}
 TEST(FormatCorpus, QgcPlanIsHandled) {
     replay_corpus(fuzz::try_qgc_plan, "qgc_plan");
 }
