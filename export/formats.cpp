@@ -11,6 +11,8 @@
 #include "export/skybrush/csv_zip.hpp"
 #include "export/skybrush/skyb.hpp"
 #include "export/skybrush/skyc.hpp"
+#include "export/vehicle/crazyflie.hpp"
+#include "export/vehicle/px4_csv.hpp"
 #include "export/vviz/vviz.hpp"
 #include "export/waypoint/qgc_plan.hpp"
 #include "export/waypoint/waypoints.hpp"
@@ -18,9 +20,10 @@
 namespace aerogram::exporter {
 
 std::span<const Format> formats() {
-    static const std::array kFormats{trajectories_format(), csv_format(),       skyc_format(),   skyb_format(),
-                                     vviz_format(),         kmz_format(),       czml_format(),   glb_format(),
-                                     qgc_plan_format(),     waypoints_format(), preview_format()};
+    static const std::array kFormats{trajectories_format(), csv_format(),       skyc_format(),     skyb_format(),
+                                     vviz_format(),         kmz_format(),       czml_format(),     glb_format(),
+                                     px4_csv_format(),      crazyflie_format(), qgc_plan_format(), waypoints_format(),
+                                     preview_format()};
     return kFormats;
 }
 
