@@ -109,7 +109,9 @@ std::string notes(const OutgoingFacts& facts, const Seal& seal) {
     };
     number("origin_latitude_deg", origin.ground.latitude_deg);
     number("origin_longitude_deg", origin.ground.longitude_deg);
-    number("origin_amsl_m", origin.ground.height_m - origin.geoid_undulation_m.value_or(0.0));
+    std::string amsl;
+    append_fixed(amsl, origin.ground.height_m - origin.geoid_undulation_m.value_or(0.0), 3);
+    out += data("origin_amsl_m", amsl);
     number("heading_deg", origin.heading_deg);
     return out + "</ExtendedData>\n";
 }

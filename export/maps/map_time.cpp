@@ -12,6 +12,10 @@ bool is_digit(char c) {
     return c >= '0' && c <= '9';
 }
 
+bool is_space(char c) {
+    return c == ' ' || c == '\n' || c == '\r' || c == '\t';
+}
+
 /// ".25" and the like, taken from the front of the text.
 std::optional<std::int64_t> taken_fraction(std::string_view& text) {
     if (!text.starts_with('.')) return 0;
@@ -39,7 +43,8 @@ std::optional<std::int64_t> zone_s(std::string_view text) {
 }  // namespace
 
 std::optional<std::int64_t> utc_micros(std::string_view text) {
-    text = trimmed(text);
+    while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
+    while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
     if (text.size() < kWholeSeconds) return std::nullopt;
     const auto whole_s = parse_utc(std::string(text.substr(0, kWholeSeconds)) + "Z");
     if (!whole_s) return std::nullopt;

@@ -4,6 +4,8 @@
 #include <vector>
 
 #include "export/bytes/zip.hpp"
+#include "export/maps/czml.hpp"
+#include "export/maps/kmz.hpp"
 #include "export/skybrush/csv_zip_reader.hpp"
 #include "export/skybrush/light_program.hpp"
 #include "export/skybrush/skyb.hpp"
@@ -51,6 +53,12 @@ inline void try_csv_zip(std::string_view bytes) {
 }
 inline void try_vviz(std::string_view bytes) {
     try_reader(read_vviz, "a.vviz", std::string(bytes));
+}
+inline void try_kmz(std::string_view bytes) {
+    try_archive(read_kmz, "a.kmz", "doc.kml", bytes);
+}
+inline void try_czml(std::string_view bytes) {
+    try_reader(read_czml, "a.czml", std::string(bytes));
 }
 inline void try_qgc_plan(std::string_view bytes) {
     try_reader(read_qgc_plan, "a.plan", std::string(bytes));

@@ -49,6 +49,12 @@ TEST(FormatCorpus, LightProgramIsHandled) {
 TEST(FormatCorpus, VvizIsHandled) {
     replay_corpus(fuzz::try_vviz, "vviz");
 }
+TEST(FormatCorpus, KmzIsHandled) {
+    replay_corpus(fuzz::try_kmz, "kmz");
+}
+TEST(FormatCorpus, CzmlIsHandled) {
+    replay_corpus(fuzz::try_czml, "czml");
+}
 TEST(FormatCorpus, QgcPlanIsHandled) {
     replay_corpus(fuzz::try_qgc_plan, "qgc_plan");
 }
