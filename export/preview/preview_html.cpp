@@ -6,9 +6,10 @@
 
 #include "export/bytes/base64.hpp"
 #include "export/bytes/files.hpp"
+#include "export/bytes/html_page.hpp"
 #include "export/exact/trajectories_bin.hpp"
 
-// The bundled viewer, made an object by the linker (cmake/AerogramPreview.cmake).
+// The bundled viewer, made an object by the linker (cmake/AerogramPage.cmake).
 extern "C" {
 extern const char _binary_viewer_html_start[];  // NOLINT(bugprone-reserved-identifier)
 extern const char _binary_viewer_html_end[];    // NOLINT(bugprone-reserved-identifier)
@@ -23,37 +24,6 @@ constexpr std::string_view kShowEnds = "</script>";
 
 std::string_view viewer() {
     return {_binary_viewer_html_start, static_cast<std::size_t>(_binary_viewer_html_end - _binary_viewer_html_start)};
-}
-
-std::string html_escaped(std::string_view text) {
-    std::string safe;
-    for (const char c : text) {
-        switch (c) {
-            case '&':
-                safe += "&amp;";
-                break;
-            case '<':
-                safe += "&lt;";
-                break;
-            case '>':
-                safe += "&gt;";
-                break;
-            case '"':
-                safe += "&quot;";
-                break;
-            default:
-                safe += c;
-        }
-    }
-    return safe;
-}
-
-/// Appends the viewer up to a mark, then what stands for it; returns the rest of the viewer.
-std::string_view filled(std::string& page, std::string_view rest, std::string_view mark, std::string_view with) {
-    const std::size_t at = rest.find(mark);
-    AEROGRAM_REQUIRE(at != std::string_view::npos, mark);
-    page.append(rest.substr(0, at)).append(with);
-    return rest.substr(at + mark.size());
 }
 
 Result<std::vector<std::string>> write(const OutgoingShow& show, const Seal& seal, const std::filesystem::path& folder,
@@ -82,10 +52,8 @@ bool recognises(std::string_view path, std::string_view first_bytes) {
 std::string preview_page(const planner::FlightPlan& plan, const Seal& seal) {
     const std::string show = trajectories_bytes(plan, seal, 4);
     std::vector<std::uint8_t> bytes(show.begin(), show.end());
-    std::string page;
-    const std::string_view rest = filled(page, viewer(), "@@TITLE@@", html_escaped(plan.name));
-    const std::string_view tail = filled(page, rest, "@@SHOW@@", base64_encoded(bytes));
-    return page.append(tail);
+    const std::string title = html_escaped(plan.name), data = base64_encoded(bytes);
+    return filled_page(viewer(), std::array<Filling, 2>{{{"@@TITLE@@", title}, {"@@SHOW@@", data}}});
 }
 
 Result<RecordedShow> read_preview(std::string_view page) {

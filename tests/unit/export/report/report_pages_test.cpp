@@ -20,6 +20,7 @@ TEST(ReportPages, SamplesToLookAt) {
             const auto pdf = report_pdf(r);
             ASSERT_TRUE(pdf.ok()) << pdf.error().message;
             ASSERT_TRUE(write_file(stem.string() + ".pdf", *pdf).ok());
+            ASSERT_TRUE(write_file(stem.string() + ".html", report_html(r)).ok());
         }
 }
 
