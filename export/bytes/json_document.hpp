@@ -28,6 +28,8 @@ class JsonNode {
     [[nodiscard]] JsonNode operator[](std::string_view key) const;
     /// A member that may be absent or null.
     [[nodiscard]] std::optional<JsonNode> find(std::string_view key) const;
+    /// Whether a member is there, null included; no problem where this is no object.
+    [[nodiscard]] bool has(std::string_view key) const;
     /// An element; the array must be that long.
     [[nodiscard]] JsonNode at(std::size_t index) const;
     /// Elements of an array (anything else is a problem: 0).

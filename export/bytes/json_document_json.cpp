@@ -103,6 +103,10 @@ std::optional<JsonNode> JsonNode::find(std::string_view key) const {
     return child(&*member, {member.key()});
 }
 
+bool JsonNode::has(std::string_view key) const {
+    return is_object() && json(value_).contains(key);
+}
+
 JsonNode JsonNode::at(std::size_t index) const {
     if (value_ == nullptr) return *this;
     if (index < size()) return child(&json(value_)[index], {{}, index});

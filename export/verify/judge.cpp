@@ -50,7 +50,7 @@ Status judge_separation(const RecordedShow& show, const Rules& rules, const Judg
     return Done{};
 }
 
-/// Places only: times and speeds mean nothing.
+/// Places only: times and speeds mean nothing but the moments that a fleet waits for.
 Result<Judgement> judge_waypoints(const RecordedShow& show, Rules rules, const Run& run, Judgement judgement) {
     auto legs = legs_as_pieces(show, rules);
     if (!legs) return legs.error();
@@ -59,6 +59,9 @@ Result<Judgement> judge_waypoints(const RecordedShow& show, Rules rules, const R
     append(judgement.findings, airspace_findings(*legs, rules, run));
     append(judgement.findings, ground_findings(*legs, rules));
     for (Finding& finding : judgement.findings) finding.time_s.reset();
+    auto standing = standing_findings(show, *legs, rules, run);
+    if (!standing) return standing.error();
+    append(judgement.findings, std::move(*standing));
     judgement.problems = track_problems(*legs);
     judgement.separation_claimed = false;
     if (run.stopped()) return stopped_error();

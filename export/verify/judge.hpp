@@ -56,6 +56,7 @@ struct JudgeAgainst {
 ///  - altitude_max, m above own home; altitude_min, m above own home (or the landing place where that is lower), at
 ///    least 0, to 0.05 m; altitude_min_navigation, horizontal metres flown in one stay below that altitude;
 ///  - geofence, audience, obstacles: margin, m, at least;
+///  - of missions whose drones wait for times, while they stand so: separation_standing, m; leaving_times, s;
 ///  - pads, m, of copters: from home at the start, from the landing place at the end; endurance, s.
 ///
 /// Properties: (1) each worst value is the true one to 1e-6 (separation 1e-5, obstacles 1e-4; 1 % of what is beyond a

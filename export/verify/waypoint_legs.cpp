@@ -1,6 +1,8 @@
 #include "export/verify/waypoint_legs.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace aerogram::exporter {
 namespace {
@@ -19,7 +21,8 @@ void line_to(RecordedDrone& drone, const Vec3& from, const Vec3& to) {
 
 /// Of a drone's home, above the ellipsoid. Without an undulation AMSL stands in: differences are kept.
 double home_height_m(const RecordedDrone& untimed, const geo::ShowFrame& frame) {
-    if (!untimed.home_amsl_m) return untimed.home->height_m;
+    const bool unknown = untimed.home->height_m == 0.0;
+    if (!untimed.home_amsl_m) return unknown ? frame.origin().ground.height_m : untimed.home->height_m;
     return *untimed.home_amsl_m + frame.origin().geoid_undulation_m.value_or(0.0);
 }
 
@@ -50,7 +53,98 @@ RecordedDrone legs_of(const RecordedDrone& untimed, const geo::ShowFrame& frame)
     return drone;
 }
 
+/// When a drone leaves a waypoint that it waits at, and where that is.
+struct Wait {
+    double until_s = 0.0;
+    Vec3 place_m{};
+};
+
+std::vector<Wait> waits_of(const RecordedDrone& untimed, const RecordedDrone& legs) {
+    std::vector<Wait> waits;
+    std::size_t leg = 0;
+    for (const Waypoint& waypoint : untimed.waypoints) {
+        leg += waypoint.kind == Waypoint::Kind::land ? 2 : 1;
+        const Piece& piece = legs.pieces[leg - 1];
+        if (waypoint.until_s) waits.push_back({*waypoint.until_s, legs.controls_m[piece.first_control + 1]});
+    }
+    return waits;
+}
+
+using FleetWaits = std::vector<std::vector<Wait>>;
+
+Finding leaving_times(const FleetWaits& fleet) {
+    constexpr double kDay_s = 86'400.0;
+    Finding finding{"leaving_times", 0.0, 0.0, 0.0, {}, {}, true};
+    const auto differs = [&](double by_s, std::size_t drone, double at_s) {
+        if (by_s <= finding.worst) return;
+        finding.worst = by_s;
+        finding.drones = {1, drone + 1};
+        finding.time_s = at_s;
+    };
+    const std::vector<Wait>& first = fleet.front();
+    for (std::size_t d = 1; d < fleet.size(); ++d) {
+        const std::size_t both = std::min(first.size(), fleet[d].size());
+        for (std::size_t k = 0; k < both; ++k)
+            differs(std::abs(fleet[d][k].until_s - first[k].until_s), d, first[k].until_s);
+        if (first.size() != fleet[d].size()) differs(kDay_s, d, first[both - 1].until_s);
+    }
+    finding.held = finding.worst <= kNumeric;
+    return finding;
+}
+
+/// The fleet at its waits, one pseudo-second each.
+RecordedShow standing(const RecordedShow& legs, const FleetWaits& fleet, std::size_t moments) {
+    RecordedShow show;
+    show.format = legs.format;
+    show.rounding = legs.rounding;
+    show.duration_s = static_cast<double>(moments);
+    for (std::size_t d = 0; d < fleet.size(); ++d) {
+        RecordedDrone& drone = show.drones.emplace_back();
+        drone.home_m = legs.drones[d].home_m;
+        drone.land_m = legs.drones[d].land_m;
+        for (std::size_t k = 0; k < moments; ++k) {
+            drone.pieces.push_back({static_cast<double>(k), 1.0, static_cast<std::uint32_t>(k), 0});
+            drone.controls_m.push_back(fleet[d][k].place_m);
+        }
+    }
+    return show;
+}
+
+/// Which of the two moments that meet at a pseudo-time is the closer one for a pair.
+std::size_t moment_of(const VerifiedSeparation& found, const FleetWaits& fleet, double downwash) {
+    const std::vector<Wait>&a = fleet[found.first], &b = fleet[found.second];
+    const auto apart_m = [&](std::size_t k) {
+        const Vec3 way = a[k].place_m - b[k].place_m;
+        return glm::length(Vec3{way.x, way.y, way.z / downwash});
+    };
+    const std::size_t last = std::min(a.size(), b.size()) - 1;
+    const std::size_t later = std::min(last, static_cast<std::size_t>(std::max(0.0, found.time_s)));
+    return later > 0 && apart_m(later - 1) < apart_m(later) ? later - 1 : later;
+}
+
 }  // namespace
+
+Result<std::vector<Finding>> standing_findings(const RecordedShow& untimed, const RecordedShow& legs,
+                                               const Rules& rules, const Run& run) {
+    FleetWaits fleet;
+    std::size_t moments = std::numeric_limits<std::size_t>::max();
+    for (std::size_t d = 0; d < untimed.drones.size(); ++d) {
+        fleet.push_back(waits_of(untimed.drones[d], legs.drones[d]));
+        moments = std::min(moments, fleet.back().size());
+    }
+    if (fleet.size() < 2 || moments == 0) return std::vector<Finding>{};
+    const double limit_m = rules.limits.min_separation_m;
+    const auto found = verify_separation(standing(legs, fleet, moments), rules.limits.downwash, 2.0 * limit_m, run,
+                                         {.resolved_m = 0.5 * kNumeric});
+    if (!found) return found.error();
+    Finding separation{
+        "separation_standing", limit_m, found->lower_bound_m, 0.0, {}, {}, found->lower_bound_m >= limit_m - kNumeric};
+    if (found->attained_m <= 2.0 * limit_m) {
+        separation.drones = {std::min(found->first, found->second) + 1, std::max(found->first, found->second) + 1};
+        separation.time_s = fleet[found->first][moment_of(*found, fleet, rules.limits.downwash)].until_s;
+    }
+    return std::vector<Finding>{leaving_times(fleet), std::move(separation)};
+}
 
 Result<RecordedShow> legs_as_pieces(const RecordedShow& untimed, Rules& rules) {
     for (std::size_t d = 0; d < untimed.drones.size(); ++d) {

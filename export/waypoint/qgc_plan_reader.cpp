@@ -1,5 +1,7 @@
 #include "export/bytes/json_document.hpp"
 #include "export/waypoint/mission_items.hpp"
+#include "export/waypoint/mission_reading.hpp"
+#include "export/waypoint/plan_rules.hpp"
 #include "export/waypoint/qgc_plan.hpp"
 
 namespace aerogram::exporter {
@@ -31,25 +33,21 @@ MissionItem read_item(const JsonNode& node) {
 
 RecordedDrone read_drone(const FileBytes& file, const JsonNode& root) {
     const JsonProblem& problem = root.problem();
-    RecordedDrone drone;
-    drone.name = stem(file.path);
     const JsonNode mission = root["mission"], home = mission["plannedHomePosition"], items = mission["items"];
     static_cast<void>(mission["firmwareType"].whole(0, 255));
     const double home_amsl_m = home.at(2).number(-kHighest_m, kHighest_m);
-    drone.home = geo::Geodetic{home.at(0).number(-90.0, 90.0), home.at(1).number(-180.0, 180.0), 0.0};
-    drone.home_amsl_m = home_amsl_m;
+    MissionReading reading(geo::Geodetic{home.at(0).number(-90.0, 90.0), home.at(1).number(-180.0, 180.0), 0.0},
+                           home_amsl_m);
     if (items.size() > kMostItems) items.fail("must be at most " + std::to_string(kMostItems) + " items");
     for (std::size_t k = 0; k < items.size() && !problem.found(); ++k) {
         const JsonNode node = items.at(k);
         if (node["type"].text() != "SimpleItem") node["type"].fail("must be \"SimpleItem\"; others are not read");
         const MissionItem item = read_item(node);
-        const auto waypoint = waypoint_of(item, *drone.home, home_amsl_m);
-        if (!waypoint) {
-            node.fail(waypoint.error().message);
-        } else if (*waypoint) {
-            drone.waypoints.push_back(**waypoint);
-        }
+        if (problem.found()) break;
+        if (const Status taken = reading.take(item); !taken) node.fail(taken.error().message);
     }
+    RecordedDrone drone = reading.drone();
+    drone.name = stem(file.path);
     if (drone.waypoints.empty()) items.fail("needs at least one place to fly to");
     return drone;
 }
@@ -59,16 +57,26 @@ struct OwnWords {
     std::string title;
     std::optional<std::string> show_hash;
     std::optional<bool> certified;
+    std::string timing;
+    std::optional<UtcSeconds> start_utc_s;
     bool operator==(const OwnWords&) const = default;
 };
 
+/// A plan of ours is held to every rule of the loader as well.
 OwnWords read_own(const JsonNode& root) {
     const auto own = root.find("aerogram");
     if (!own) return {};
+    check_plan_rules(root);
     OwnWords words;
     words.title = (*own)["title"].text();
     words.show_hash = (*own)["showHash"].text();
     words.certified = (*own)["certified"].flag();
+    words.timing = (*own)["timing"].text();
+    if (own->has("startUtc")) {
+        const JsonNode start = (*own)["startUtc"];
+        words.start_utc_s = parse_utc(start.text());
+        if (!words.start_utc_s) start.fail(R"(must be a moment such as "2026-12-31T22:00:00Z")");
+    }
     return words;
 }
 
@@ -98,6 +106,10 @@ Result<RecordedShow> read_qgc_plan(std::span<const FileBytes> files) {
     show.title = words->title;
     show.show_hash = words->show_hash;
     show.certified = words->certified;
+    settle_times(show, words->start_utc_s);
+    const std::string found = show.timing.empty() ? "none" : show.timing;
+    if (words->show_hash && !words->timing.starts_with(found + ":"))
+        return Error{ErrorCode::invalid_input, files[0].path + ": aerogram.timing: is not what the items do: " + found};
     return show;
 }
 

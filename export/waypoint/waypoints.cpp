@@ -3,68 +3,54 @@
 #include <cmath>
 
 #include "export/bytes/decimal.hpp"
-#include "export/bytes/files.hpp"
 #include "export/waypoint/mission_items.hpp"
+#include "export/waypoint/mission_reading.hpp"
 
 namespace aerogram::exporter {
 namespace {
 
-constexpr std::string_view kFirstLine = "QGC WPL 110";
-constexpr std::string_view kEnding = ".waypoints";
+constexpr std::string_view kFirstLine = "QGC WPL 110", kFirstLineWithoutHome = "QGC WPL 120";
 constexpr std::size_t kMostItems = 65'536;
 constexpr double kAny = 1e9;
 
-struct Line {
-    std::size_t seq = 0;
-    int frame = mav::kGlobalRelative, command = mav::kWaypoint;
-    double hold_s = 0.0;
-    geo::Geodetic place;
-    double altitude_m = 0.0;
-};
+void append_parameter(std::string& out, double value) {
+    append_fixed(out, value, value == std::floor(value) ? 0 : 3);
+    out += '\t';
+}
 
-void append(std::string& out, const Line& line) {
-    out += std::to_string(line.seq) + '\t' + (line.seq == 0 ? '1' : '0') + '\t' + std::to_string(line.frame) + '\t' +
-           std::to_string(line.command) + '\t';
-    append_fixed(out, line.hold_s, 0);
-    out += "\t0\t0\t0\t";
-    append_fixed(out, line.place.latitude_deg, 8);
+void append_item(std::string& out, std::size_t seq, const MissionItem& item) {
+    constexpr std::size_t kLatitude = 4, kLongitude = 5, kAltitude = 6;
+    out += std::to_string(seq) + '\t' + (seq == 0 ? '1' : '0') + '\t' + std::to_string(item.frame) + '\t' +
+           std::to_string(item.command) + '\t';
+    for (std::size_t k = 0; k < kLatitude; ++k) append_parameter(out, item.params[k]);
+    append_fixed(out, item.params[kLatitude], 8);
     out += '\t';
-    append_fixed(out, line.place.longitude_deg, 8);
+    append_fixed(out, item.params[kLongitude], 8);
     out += '\t';
-    append_fixed(out, line.altitude_m, 3);
+    append_fixed(out, item.params[kAltitude], 3);
     out += "\t1\n";
 }
 
-int command_of(Waypoint::Kind kind) {
-    if (kind == Waypoint::Kind::takeoff) return mav::kTakeoff;
-    return kind == Waypoint::Kind::land ? mav::kLand : mav::kWaypoint;
-}
-
-std::string text_of(const DroneMission& mission) {
-    std::string out(kFirstLine);
+/// Of PX4, which has no home item, the version that says so.
+std::string text_of(const FleetMissions& fleet, const DroneMission& drone) {
+    std::string out(fleet.px4 ? kFirstLineWithoutHome : kFirstLine);
     out += '\n';
-    append(out, {0, mav::kGlobal, mav::kWaypoint, 0.0, mission.home, mission.home_amsl_m});
-    for (std::size_t k = 0; k < mission.items.size(); ++k) {
-        const Waypoint& item = mission.items[k];
-        append(out, {k + 1, mav::kGlobalRelative, command_of(item.kind), item.hold_s, item.place,
-                     item.altitude_above_home_m});
-    }
+    std::size_t seq = 0;
+    if (!fleet.px4)
+        append_item(out, seq++,
+                    {mav::kGlobal,
+                     mav::kWaypoint,
+                     {0.0, 0.0, 0.0, 0.0, drone.home.latitude_deg, drone.home.longitude_deg, drone.home_amsl_m}});
+    for (const MissionItem& item : mission_items(fleet, drone)) append_item(out, seq++, item);
     return out;
 }
 
 Result<std::vector<std::string>> write(const OutgoingShow& show, const Seal&, const std::filesystem::path& folder,
                                        const Run& run) {
-    const auto missions = drone_missions(show);
-    if (!missions) return Error{missions.error().code, "waypoints: " + missions.error().message};
-    std::vector<std::string> files;
-    for (const DroneMission& mission : *missions) {
-        if (run.stopped()) return stopped_error();
-        files.push_back("waypoints/" + mission.name + std::string(kEnding));
-        if (const Status written = write_file(folder / files.back(), text_of(mission)); !written)
-            return written.error();
-        run.report("waypoints", static_cast<double>(files.size()) / static_cast<double>(missions->size()));
-    }
-    return files;
+    const auto fleet = fleet_missions(show);
+    if (!fleet) return Error{fleet.error().code, "waypoints: " + fleet.error().message};
+    return write_missions(*fleet, "waypoints", ".waypoints", folder, run,
+                          [&](const DroneMission& drone) { return text_of(*fleet, drone); });
 }
 
 /// One file, line by line; the first problem is kept with its line.
@@ -73,27 +59,22 @@ class Reader {
     explicit Reader(const FileBytes& file) : path_(file.path), lines_(without_blank_end(file.bytes), '\n') {}
 
     Result<RecordedDrone> read() {
-        if (line() != kFirstLine) fail("must be \"" + std::string(kFirstLine) + "\"");
-        RecordedDrone drone;
-        const std::size_t slash = path_.rfind('/'), start = slash == std::string_view::npos ? 0 : slash + 1;
-        drone.name = std::string(path_.substr(start, path_.rfind('.') > start ? path_.rfind('.') - start : path_.npos));
-        double home_amsl_m = 0.0;
+        const auto first = line();
+        has_home_ = first == kFirstLine;
+        if (!has_home_ && first != kFirstLineWithoutHome)
+            fail("must be \"" + std::string(kFirstLine) + "\" or \"" + std::string(kFirstLineWithoutHome) + "\"");
+        MissionReading reading({}, {});
         for (std::size_t seq = 0; problem_.empty(); ++seq) {
             const auto text = line();
             if (!text) break;
             const MissionItem item = parsed(*text, seq);
             if (!problem_.empty()) break;
-            if (seq == 0) {
-                drone.home = geo::Geodetic{item.params[4], item.params[5], 0.0};
-                drone.home_amsl_m = home_amsl_m = item.params[6];
-            }
-            const auto waypoint = waypoint_of(item, drone.home.value_or(geo::Geodetic{}), home_amsl_m);
-            if (!waypoint) {
-                fail(waypoint.error().message);
-            } else if (seq > 0 && *waypoint) {
-                drone.waypoints.push_back(**waypoint);
-            }
+            const Status taken = seq == 0 && has_home_ ? begin_at(item, reading) : reading.take(item);
+            if (!taken) fail(taken.error().message);
         }
+        RecordedDrone drone = reading.drone();
+        const std::size_t slash = path_.rfind('/'), start = slash == std::string_view::npos ? 0 : slash + 1;
+        drone.name = std::string(path_.substr(start, path_.rfind('.') > start ? path_.rfind('.') - start : path_.npos));
         if (problem_.empty() && drone.waypoints.empty()) fail("needs a home and at least one place to fly to");
         if (!problem_.empty()) return Error{ErrorCode::invalid_input, problem_};
         return drone;
@@ -103,6 +84,14 @@ class Reader {
     static std::string_view without_blank_end(std::string_view text) {
         const std::size_t last = text.find_last_not_of("\r\n");
         return text.substr(0, last == std::string_view::npos ? 0 : last + 1);
+    }
+
+    /// Home is checked like a waypoint, and is none.
+    static Status begin_at(const MissionItem& home, MissionReading& reading) {
+        const geo::Geodetic place{home.params[4], home.params[5], 0.0};
+        MissionReading alone(place, home.params[6]);
+        reading = alone;
+        return alone.take(home);
     }
 
     std::optional<std::string_view> line() {
@@ -125,7 +114,7 @@ class Reader {
         if (fields.next()) fail("must be 12 fields split by single tabs");
         const bool is_home =
             item.command == mav::kWaypoint && (item.frame == mav::kGlobal || item.frame == mav::kGlobalInt);
-        if (seq == 0 && !is_home) fail("item 0 must be the home: frame 0, command 16");
+        if (seq == 0 && has_home_ && !is_home) fail("item 0 must be the home: frame 0, command 16");
         return item;
     }
 
@@ -152,6 +141,7 @@ class Reader {
     std::string_view path_;
     Fields lines_;
     std::size_t number_ = 0;
+    bool has_home_ = true;
     std::string problem_;
 };
 
@@ -159,10 +149,11 @@ bool recognises(std::string_view, std::string_view first_bytes) {
     return first_bytes.starts_with("QGC WPL");
 }
 
-constexpr Format kWaypoints{"waypoints", "QGC WPL 110 missions, one a drone: places without times",
-                            "none",      "curves, times, lights, yaw, events, cues, limits, fence and show hash",
-                            write,       read_waypoints,
-                            recognises,  unsuited_for_missions};
+constexpr Format kWaypoints{
+    "waypoints", "QGC WPL 110 missions, one a drone: keyframe places (timing none, absolute or speed)",
+    "none",      "curves, lights, yaw, events, cues, limits, fence, show hash; of times all but the waits of absolute",
+    write,       read_waypoints,
+    recognises,  unsuited_for_missions};
 
 }  // namespace
 
@@ -177,6 +168,7 @@ Result<RecordedShow> read_waypoints(std::span<const FileBytes> files) {
         if (!drone) return drone.error();
         show.drones.push_back(std::move(*drone));
     }
+    settle_times(show, {});
     return show;
 }
 

@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <vector>
+
 #include "export/verify/judge.hpp"
 #include "geo/show_frame.hpp"
 #include "tests/unit/export/verify/judged.hpp"
@@ -62,6 +64,45 @@ TEST(JudgeWaypoints, WithoutOriginOrHomeAreHandled) {
     const auto result = judge(show, {}, aerogram::Run{});
     ASSERT_FALSE(result.ok());
     EXPECT_EQ(result.error().message, "drone 1: the file holds no home to count altitudes from");
+}
+
+/// Two drones side by side that wait at the first two of their waypoints.
+RecordedShow two_that_wait(double apart_m, const std::vector<double>& first, const std::vector<double>& second) {
+    RecordedShow show = mission(10.0);
+    const geo::ShowFrame frame(*show.origin);
+    RecordedDrone other = show.drones[0];
+    other.home = frame.to_geodetic({0, 8, 0});
+    other.waypoints[0].place = *other.home;
+    other.waypoints[1].place = other.waypoints[2].place = frame.to_geodetic({100, apart_m, 0});
+    show.drones.push_back(other);
+    show.timing = "absolute";
+    for (std::size_t k = 0; k < first.size(); ++k) show.drones[0].waypoints[k].until_s = first[k];
+    for (std::size_t k = 0; k < second.size(); ++k) show.drones[1].waypoints[k].until_s = second[k];
+    return show;
+}
+
+TEST(JudgeWaypoints, ThatWaitForTimesAreJudgedWhereTheyStand) {
+    const Judgement near = judged(two_that_wait(1.2, {8.0, 30.0}, {8.0, 30.0}));
+    EXPECT_THAT(broken(near), ElementsAre("separation_standing"));
+    EXPECT_FALSE(near.separation_claimed);
+    const Finding& standing = finding(near, "separation_standing");
+    EXPECT_NEAR(standing.worst, 1.2, 1e-3);
+    EXPECT_EQ(standing.time_s, 30.0);
+    EXPECT_THAT(standing.drones, ElementsAre(1, 2));
+    EXPECT_EQ(finding(near, "leaving_times").worst, 0.0);
+    const Judgement far = judged(two_that_wait(2.9, {8.0, 30.0}, {8.0, 30.0}));
+    EXPECT_TRUE(far.held());
+    EXPECT_NEAR(finding(far, "separation_standing").worst, 2.9, 1e-3);
+}
+
+TEST(JudgeWaypoints, ThatLeaveAtOtherTimesAreFound) {
+    const Judgement apart = judged(two_that_wait(5.0, {8.0, 30.0}, {8.0, 33.0}));
+    EXPECT_THAT(broken(apart), ElementsAre("leaving_times"));
+    EXPECT_EQ(finding(apart, "leaving_times").worst, 3.0);
+    EXPECT_EQ(finding(apart, "leaving_times").time_s, 30.0);
+    EXPECT_EQ(finding(judged(two_that_wait(5.0, {8.0, 30.0}, {8.0})), "leaving_times").worst, 86'400.0);
+    for (const Finding& each : judged(two_that_wait(0.5, {8.0, 30.0}, {})).findings)
+        EXPECT_NE(each.rule, "separation_standing");
 }
 
 }  // namespace

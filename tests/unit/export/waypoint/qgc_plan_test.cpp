@@ -123,6 +123,57 @@ TEST(QgcPlan, ItsJudgeClaimsNoSeparationAndFindsNothingWrong) {
         EXPECT_TRUE(finding.held) << finding.rule << " " << finding.worst << " limit " << finding.limit;
 }
 
+using planner::Autopilot, planner::WaypointTiming;
+
+TEST(QgcPlan, AbsoluteMissionsAreTheseBytes) {
+    expect_golden("qgc-absolute.txt",
+                  unpacked_text(written_files(qgc_plan_format(), timed_show(WaypointTiming::absolute))));
+}
+
+TEST(QgcPlan, AbsoluteMissionsLeaveWhenThePlanLeaves) {
+    const auto files = written_files(qgc_plan_format(), timed_show(WaypointTiming::absolute));
+    EXPECT_THAT(files[0].bytes, HasSubstr(R"("timing": "absolute: separation is not claimed")"));
+    EXPECT_THAT(files[0].bytes, HasSubstr(R"("startUtc": "2026-12-31T23:59:50Z")"));
+    const RecordedShow show = read_back(qgc_plan_format(), files);
+    expect_goes_where_the_plan_goes(show, 1.0);
+    expect_leaves_when_the_plan_leaves(show, 0.0);
+    expect_standing_is_judged(show);
+}
+
+TEST(QgcPlan, SpeedMissionsSayHowInaccurateTheyAre) {
+    const auto files = written_files(qgc_plan_format(), timed_show(WaypointTiming::speed));
+    EXPECT_THAT(files[0].bytes,
+                HasSubstr("\"speed: legs 0.5 to 5 s late, vehicles up to 4 s apart: separation is not"));
+    const RecordedShow show = read_back(qgc_plan_format(), files);
+    expect_goes_where_the_plan_goes(show);
+    EXPECT_EQ(show.timing, "speed: legs 0.5 to 5 s late, vehicles up to 4 s apart");
+    for (const RecordedDrone& drone : show.drones)
+        for (std::size_t k = 1; k < 4; ++k) EXPECT_TRUE(drone.waypoints[k].speed_mps.has_value());
+}
+
+TEST(QgcPlan, ForPx4TurnAsTheyLike) {
+    const auto files = written_files(qgc_plan_format(), timed_show(WaypointTiming::none, Autopilot::px4));
+    EXPECT_THAT(files[0].bytes, HasSubstr("\"firmwareType\": 12"));
+    EXPECT_THAT(files[0].bytes, HasSubstr("null"));
+    expect_goes_where_the_plan_goes(read_back(qgc_plan_format(), files));
+}
+
+TEST(QgcPlan, ThatSaysAnotherTimingThanItsItemsIsRefused) {
+    auto files = written_files(qgc_plan_format(), timed_show(WaypointTiming::absolute));
+    for (FileBytes& file : files) {
+        const std::string from = "\"absolute: sep";
+        file.bytes.replace(file.bytes.find(from), from.size(), "\"none: sep");
+    }
+    EXPECT_EQ(read_qgc_plan(files).error().message,
+              "qgc/drone-001.plan: aerogram.timing: is not what the items do: absolute");
+}
+
+TEST(QgcPlan, OfOursKeepsEveryRuleOfTheLoader) {
+    std::string text = written_files(qgc_plan_format(), fixed::show())[0].bytes;
+    text.replace(text.find("\"doJumpId\": 2"), 13, "\"doJumpId\": 3");
+    EXPECT_THAT(error_of(text), HasSubstr("mission.items[1].doJumpId: rule 7: must be 2"));
+}
+
 TEST(QgcPlan, RefusesAShowWithoutAGeoid) {
     planner::FlightPlan plan = fixed::show();
     plan.origin.geoid_undulation_m.reset();

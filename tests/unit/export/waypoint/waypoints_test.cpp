@@ -71,6 +71,41 @@ TEST(Waypoints, TheirJudgeClaimsNoSeparationAndFindsNothingWrong) {
         EXPECT_TRUE(finding.held) << finding.rule << " " << finding.worst << " limit " << finding.limit;
 }
 
+using planner::Autopilot, planner::WaypointTiming;
+
+TEST(Waypoints, OfAbsoluteTimingAreTheseBytes) {
+    expect_golden("waypoints-absolute.txt",
+                  unpacked_text(written_files(waypoints_format(), timed_show(WaypointTiming::absolute))));
+}
+
+/// The file tells times of day; its show times count from the first wait.
+TEST(Waypoints, OfAbsoluteTimingLeaveWhenThePlanLeaves) {
+    const RecordedShow show =
+        read_back(waypoints_format(), written_files(waypoints_format(), timed_show(WaypointTiming::absolute)));
+    expect_goes_where_the_plan_goes(show, 1.0);
+    expect_leaves_when_the_plan_leaves(show, 8.0);
+    expect_standing_is_judged(show);
+}
+
+TEST(Waypoints, OfSpeedTimingSetASpeedForEachLeg) {
+    const RecordedShow show =
+        read_back(waypoints_format(), written_files(waypoints_format(), timed_show(WaypointTiming::speed)));
+    expect_goes_where_the_plan_goes(show);
+    EXPECT_EQ(show.timing, "speed: legs 0.5 to 5 s late, vehicles up to 4 s apart");
+}
+
+TEST(Waypoints, ForPx4HaveNoHomeItem) {
+    const auto files = written_files(waypoints_format(), timed_show(WaypointTiming::none, Autopilot::px4));
+    EXPECT_THAT(files[0].bytes, ::testing::StartsWith("QGC WPL 120\n0\t1\t3\t22\t0\t0\t0\t0\t"));
+    const RecordedShow show = read_back(waypoints_format(), files);
+    EXPECT_FALSE(show.drones[0].home_amsl_m.has_value());
+    expect_goes_where_the_plan_goes(show);
+    JudgeAgainst against;
+    against.origin = fixed::show().origin;
+    against.airspace = fixed::show().airspace;
+    EXPECT_TRUE(judge(show, against, aerogram::Run{})->held());
+}
+
 TEST(Waypoints, ReadWhatOthersWrite) {
     const auto show = read(
         "QGC WPL 110\r\n0\t1\t0\t16\t0.000000\t0\t0\t0\t35.1\t139.7\t3.3\t1\r\n"
@@ -87,8 +122,9 @@ TEST(Waypoints, ReadWhatOthersWrite) {
 
 TEST(Waypoints, ErrorsNameFileAndLine) {
     const std::string head = "QGC WPL 110\n", at = "waypoints/ann.waypoints:";
-    EXPECT_EQ(error_of(""), at + "1: must be \"QGC WPL 110\"");
-    EXPECT_EQ(error_of("QGC WPL 120\n"), at + "1: must be \"QGC WPL 110\"");
+    EXPECT_EQ(error_of(""), at + "1: must be \"QGC WPL 110\" or \"QGC WPL 120\"");
+    EXPECT_EQ(error_of("QGC WPL 130\n"), at + "1: must be \"QGC WPL 110\" or \"QGC WPL 120\"");
+    EXPECT_EQ(error_of("QGC WPL 120\n" + kUp), at + "2: seq: must be 0");
     EXPECT_EQ(error_of(head + kHome), at + "3: needs a home and at least one place to fly to");
     EXPECT_EQ(error_of(head + kUp), at + "2: seq: must be 0");
     EXPECT_EQ(error_of(head + kHome + kHome), at + "3: seq: must be 1");
