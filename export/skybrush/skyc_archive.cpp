@@ -1,12 +1,15 @@
 #include "export/skybrush/skyc_archive.hpp"
 
+#include <algorithm>
+#include <charconv>
+
 #include "export/bytes/decimal.hpp"
 #include "export/bytes/zip.hpp"
 
 namespace aerogram::exporter {
 namespace {
 
-constexpr std::size_t kLargestEntry = std::size_t{96} << 20;
+constexpr std::size_t kLargestEntry = std::size_t{96} << 20, kMostEntries = 65'534;
 
 /// "drones/a/x.json" of folder "drones/a/" and "./x.json"; empty when it leads out of the archive.
 std::string joined(std::string folder, std::string_view path) {
@@ -25,19 +28,43 @@ std::string joined(std::string folder, std::string_view path) {
     return folder;
 }
 
+/// "a b" of "a%20b".
+std::string percent_decoded(std::string_view text) {
+    std::string out;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        unsigned byte = 0;
+        const char* const digits = text.data() + i + 1;
+        const bool escaped =
+            text[i] == '%' && text.size() - i > 2 && std::from_chars(digits, digits + 2, byte, 16).ptr == digits + 2;
+        out += escaped ? static_cast<char>(byte) : text[i];
+        if (escaped) i += 2;
+    }
+    return out;
+}
+
 }  // namespace
 
 Result<SkycArchive> SkycArchive::open(const FileBytes& file) {
     UnzipLimits limits;
     limits.entry_bytes = kLargestEntry;
-    auto entries = unzip_bytes(file.bytes, limits);
-    if (!entries) return Error{entries.error().code, file.path + ": " + entries.error().message};
+    limits.entries = kMostEntries;
+    const auto refused = [&](const Error& error) { return Error{error.code, file.path + ": " + error.message}; };
+    const auto entries = ZipArchive::open(file.bytes, limits);
+    if (!entries) return refused(entries.error());
     SkycArchive archive;
     archive.name_ = file.path;
     archive.problem_ = std::make_unique<JsonProblem>();
     archive.nothing_ = std::make_unique<JsonDocument>(JsonDocument::parse(file.path, "null").value());
-    for (FileBytes& entry : *entries)
-        if (entry.path.ends_with(".json")) archive.texts_.emplace(entry.path, std::move(entry.bytes));
+    for (std::size_t i = 0; i < entries->size(); ++i) {
+        const std::string& path = entries->path(i);
+        if (!path.ends_with(".json")) {
+            archive.others_.insert(path);
+            continue;
+        }
+        auto text = entries->unpacked(i);
+        if (!text) return refused(text.error());
+        archive.texts_.emplace(path, std::move(*text));
+    }
     if (!archive.texts_.contains("show.json"))
         return Error{ErrorCode::invalid_input, file.path + ": holds no show.json"};
     return archive;
@@ -50,8 +77,19 @@ const JsonDocument* SkycArchive::parsed(const std::string& entry) {
     auto document = JsonDocument::parse(name_ + ": " + entry, text->second);
     if (!document && !problem_->found()) problem_->text = document.error().message;
     if (!document) return nullptr;
-    std::string().swap(text->second);
+    const bool again = !parsed_once_.insert(entry).second;
+    if (passing_ && !again) {
+        passed_.push_back(entry);
+    } else {
+        std::string().swap(text->second);
+    }
     return &documents_.emplace(entry, std::move(*document)).first->second;
+}
+
+void SkycArchive::next_drone() {
+    for (const std::string& entry : passed_) documents_.erase(entry);
+    passed_.clear();
+    passing_ = true;
 }
 
 JsonNode SkycArchive::document(const std::string& entry) {
@@ -60,13 +98,24 @@ JsonNode SkycArchive::document(const std::string& entry) {
     return (found == nullptr ? *nothing_ : *found).root(*problem_);
 }
 
-/// The entry that a reference of a node leads to.
+/// The entry that a reference of a node leads to: as it is spelt, else with "%20" and the like decoded.
 std::string SkycArchive::entry_of(const JsonNode& holder, std::string_view reference) const {
     const std::string_view path = reference.substr(0, reference.find('#'));
     std::string entry = holder.file() == name_ ? "" : holder.file().substr(name_.size() + 2);
     if (path.empty()) return entry;
     const std::size_t slash = entry.rfind('/');
-    return joined(entry.substr(0, slash == std::string::npos ? 0 : slash + 1), path);
+    const std::string folder = path.starts_with('/') ? "" : entry.substr(0, slash == std::string::npos ? 0 : slash + 1);
+    std::string as_spelt = joined(folder, path);
+    return holds(as_spelt) ? as_spelt : joined(folder, percent_decoded(path));
+}
+
+bool SkycArchive::holds(const std::string& entry) const {
+    return texts_.contains(entry) || others_.contains(entry);
+}
+
+bool SkycArchive::holds_target(const JsonNode& node) const {
+    const auto reference = node.is_object() ? node.find("$ref") : std::nullopt;
+    return !reference || holds(entry_of(node, reference->text()));
 }
 
 std::optional<std::string_view> SkycArchive::unparsed(const JsonNode& node) const {
@@ -89,7 +138,7 @@ JsonNode SkycArchive::target(const JsonNode& holder, const std::string& referenc
         holder.fail("$ref " + shown(reference) + ": no such entry");
         return nothing_->root(*problem_);
     }
-    return found->pointed(pointer, *problem_);
+    return found->pointed(percent_decoded(pointer), *problem_);
 }
 
 JsonNode SkycArchive::resolved(JsonNode node) {

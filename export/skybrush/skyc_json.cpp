@@ -6,9 +6,11 @@
 #include "export/bytes/decimal.hpp"
 #include "export/bytes/zip.hpp"
 #include "export/bytes/zip_peek.hpp"
+#include "export/outgoing/facts_json.hpp"
 #include "export/skybrush/light_program.hpp"
 #include "export/skybrush/skybrush_frame.hpp"
 #include "export/skybrush/skyc.hpp"
+#include "export/skybrush/skyc_audio.hpp"
 #include "export/skybrush/skyc_trajectory.hpp"
 #include "geo/units.hpp"
 
@@ -121,6 +123,8 @@ Json meta(const OutgoingFacts& facts, const Seal& seal, const Part& part) {
              {"maxJerk", facts.limits.jerk_mps3}};
     if (facts.origin && facts.origin->geoid_undulation_m) own["geoidUndulation"] = *facts.origin->geoid_undulation_m;
     if (part.parts > 1) own["part"] = {part.number, part.parts};
+    const Json all = Json::parse(facts_json(facts, seal));
+    own["facts"] = {{"endurance_s", all["endurance_s"]}, {"airspace", all["airspace"]}};
     return {{"title", title}, {"id", seal.show_hash}, {"segments", segments(facts)}, {"aerogram", own}};
 }
 
@@ -158,16 +162,23 @@ Json drone_settings(const OutgoingDrone& drone, const Tracks& tracks) {
     return {{"type", "generic"}, {"settings", settings}};
 }
 
-std::string show_json(const OutgoingShow& show, const Seal& seal, const Part& part) {
+std::string show_json(const OutgoingShow& show, const Seal& seal, const Part& part,
+                      const std::optional<SkycAudio>& audio) {
     const OutgoingFacts& facts = show.facts();
     Json drones = Json::array();
     for (std::size_t i = part.first; i < part.end; ++i)
         drones.push_back(drone_settings(facts.drones[i], show.tracks(i)));
-    const Json json{{"version", 1},
-                    {"swarm", {{"drones", std::move(drones)}}},
-                    {"environment", environment(facts)},
-                    {"settings", {{"cues", reference("cues.json")}, {"validation", validation(facts.limits)}}},
-                    {"meta", meta(facts, seal, part)}};
+    Json json{{"version", 1},
+              {"swarm", {{"drones", std::move(drones)}}},
+              {"environment", environment(facts)},
+              {"settings", {{"cues", reference("cues.json")}, {"validation", validation(facts.limits)}}},
+              {"meta", meta(facts, seal, part)}};
+    if (audio)
+        json["media"] = {{"audio",
+                          {{"data", {{"$ref", "./" + audio->entry}}},
+                           {"filename", audio->entry},
+                           {"mediaType", audio->media_type},
+                           {"startTime", 0}}}};
     return text_of(json);
 }
 
@@ -184,18 +195,21 @@ std::string lights_json(const OutgoingShow& show, std::size_t i) {
 
 std::string unsuited(const OutgoingShow& show) {
     if (show.facts().limits.plane) return "planes: the format is for drones that take off, hover and land";
+    if (std::string why = skyc_audio_problem(show.facts().audio); !why.empty()) return why;
     return skyc_misfit(show);
 }
 
 Result<std::vector<std::string>> write(const OutgoingShow& show, const Seal& seal, const std::filesystem::path& folder,
                                        const Run& run) {
+    const auto audio = skyc_audio(show.facts().audio);
+    if (!audio) return audio.error();
     std::vector<std::string> files;
     for (std::size_t number = 1; number <= part_count(show); ++number) {
         const Part part = part_of(show, number);
         auto trajectories = skyc_trajectories(show, part.first, part.end, run);
         if (!trajectories) return trajectories.error();
         std::vector<PackedEntry> entries(2 + 2 * trajectories->size());
-        entries[0] = packed_entry("show.json", show_json(show, seal, part));
+        entries[0] = packed_entry("show.json", show_json(show, seal, part, *audio));
         entries[1] = packed_entry("cues.json", cues_json(show.facts().cues));
         parallel_for(trajectories->size(), run, "skyc", [&](std::size_t k) {
             const std::size_t i = part.first + k;
@@ -204,6 +218,7 @@ Result<std::vector<std::string>> write(const OutgoingShow& show, const Seal& sea
             entries[3 + 2 * k] = packed_entry(place + "lights.json", lights_json(show, i));
         });
         if (run.stopped()) return stopped_error();
+        if (*audio) entries.push_back(packed_entry((*audio)->entry, (*audio)->bytes));
         files.push_back(file_of(part));
         if (const Status written = write_zip(folder / files.back(), entries); !written) return written.error();
     }
@@ -215,8 +230,8 @@ bool recognises(std::string_view path, std::string_view first_bytes) {
     return entry && (path.ends_with(".skyc") || *entry == "show.json");
 }
 
-constexpr Format kSkyc{"skyc",     "Skybrush compiled show: curves, lights, yaw, pyro, cues, cameras",
-                       "exact",    "audio, the airspace, the endurance, payload events that switch off",
+constexpr Format kSkyc{"skyc",     "Skybrush compiled show: curves, lights, yaw, pyro, cues, music, cameras",
+                       "exact",    "payload events that switch off; other readers see no airspace and no endurance",
                        write,      read_skyc,
                        recognises, unsuited};
 

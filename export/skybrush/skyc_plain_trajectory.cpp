@@ -1,4 +1,4 @@
-// trajectory.json as our own writer leaves it (export/skyc_trajectory.cpp), read without a document of it.
+// trajectory.json as our own writer leaves it (export/skybrush/skyc_trajectory.cpp), read without a document of it.
 #include "export/bytes/text_cursor.hpp"
 #include "export/skybrush/skybrush_frame.hpp"
 #include "export/skybrush/skyc_trajectory.hpp"

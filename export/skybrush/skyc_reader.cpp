@@ -8,6 +8,7 @@
 #include "export/bytes/decimal.hpp"
 #include "export/bytes/json_document.hpp"
 #include "export/outgoing/curve_fit.hpp"
+#include "export/outgoing/facts_json.hpp"
 #include "export/skybrush/light_program.hpp"
 #include "export/skybrush/skybrush_frame.hpp"
 #include "export/skybrush/skyc.hpp"
@@ -23,13 +24,29 @@ constexpr double kAny = 1e6;
 constexpr std::size_t kMostLightKeys = 24'000'000;
 constexpr double kHalfMillimetre_m = 0.0005;
 constexpr std::int64_t kMostParts = 1000;
+constexpr std::size_t kMostCorners = 2000;
 
 Millis millis(double time_s) {
     return std::llround(time_s * 1000.0);
 }
 
+/// Parts of a show may leave it out; the show itself may not.
 void check_version(const JsonNode& node) {
-    static_cast<void>(node["version"].whole(1, 1));
+    if (const auto version = node.find("version")) static_cast<void>(version->whole(1, 1));
+}
+
+/// Corners [x, y] or [x, y, z], closed or not.
+geo::Polygon skyc_polygon(const JsonNode& points) {
+    geo::Polygon outline;
+    if (points.size() > kMostCorners) points.fail("has too many corners");
+    for (std::size_t k = 0; k < points.size() && !points.problem().found(); ++k) {
+        const Vec3 corner = from_skybrush({points.at(k).at(0).number(-kFarthest_m, kFarthest_m),
+                                           points.at(k).at(1).number(-kFarthest_m, kFarthest_m), 0.0});
+        outline.emplace_back(corner.x, corner.y);
+    }
+    if (outline.size() > 1 && outline.front() == outline.back()) outline.pop_back();
+    if (outline.size() < 3 || !geo::is_simple(outline)) points.fail("must be a polygon that does not cross itself");
+    return outline;
 }
 
 /// One file, and which of a fleet's files it is, from 1.
@@ -44,15 +61,18 @@ class Reader {
 
     Result<SkycPart> read() {
         const JsonNode root = archive_.resolved(archive_.document("show.json"));
-        check_version(root);
+        static_cast<void>(root["version"].whole(1, 1));
         show_.format = "skyc";
         read_meta(root);
         read_settings(root);
         read_location(root);
+        check_media(root);
         const JsonNode drones = in(in(root, "swarm"), "drones");
         if (drones.size() == 0) drones.fail("needs at least one drone");
-        for (std::size_t i = 0; i < drones.size() && !problem().found(); ++i)
+        for (std::size_t i = 0; i < drones.size() && !problem().found(); ++i) {
+            archive_.next_drone();
             read_drone(archive_.resolved(drones.at(i)));
+        }
         if (problem().found()) return problem().error();
         state_rounding();
         return SkycPart{std::move(show_), part_, parts_};
@@ -81,12 +101,29 @@ class Reader {
             part_ = part->at(0).whole(1, kMostParts);
             parts_ = part->at(1).whole(part_, kMostParts);
         }
+        if (const auto facts = own->find("facts")) read_own_facts(*facts);
         Limits limits;
         limits.downwash = (*own)["downwash"].number(1.0, kAny);
         limits.formation_spacing_m = (*own)["formationSpacing"].number(0.0, kAny);
         limits.export_margin_m = (*own)["exportMargin"].number(0.0, kAny);
         limits.jerk_mps3 = (*own)["maxJerk"].number(0.0, kAny);
         show_.limits = limits;
+    }
+
+    /// What Skybrush has no place for; the rest is its own to say.
+    void read_own_facts(const JsonNode& facts) {
+        RecordedShow own;
+        read_facts(facts, own);
+        show_.airspace = std::move(own.airspace);
+        show_.endurance_s = own.endurance_s;
+    }
+
+    /// Music is for other readers; it must be there.
+    void check_media(const JsonNode& root) {
+        const auto media = maybe(root, "media");
+        const auto audio = media ? maybe(*media, "audio") : std::nullopt;
+        const auto data = audio ? audio->find("data") : std::nullopt;
+        if (data && !archive_.holds_target(*data)) data->fail("$ref: no such entry");
     }
 
     static bool is_hash(const JsonNode& id) {
@@ -100,11 +137,35 @@ class Reader {
         if (const auto cues = maybe(*settings, "cues")) {
             check_version(*cues);
             const JsonNode items = in(*cues, "items");
-            for (std::size_t i = 0; i < items.size(); ++i)
+            for (std::size_t i = 0; i < items.size() && !problem().found(); ++i) {
+                const JsonNode item = archive_.resolved(items.at(i));
+                const auto name = item.find("name");
                 show_.cues.push_back(
-                    {millis(items.at(i)["time"].number(-kLongest_s, kLongest_s)), items.at(i)["name"].text()});
+                    {millis(item["time"].number(-kLongest_s, kLongest_s)), name ? name->text() : std::string()});
+            }
         }
         if (const auto validation = maybe(*settings, "validation")) read_limits(*validation);
+        const auto fence = maybe(*settings, "geofence");
+        if (fence && !show_.airspace) read_geofence(*fence);
+    }
+
+    /// One inclusion is the fence; several, of which a drone must be in any, cannot be judged and are left out.
+    void read_geofence(const JsonNode& fence) {
+        check_version(fence);
+        const JsonNode polygons = in(fence, "polygons");
+        geo::Airspace air;
+        std::size_t inclusions = 0;
+        for (std::size_t k = 0; k < polygons.size() && !problem().found(); ++k) {
+            const JsonNode polygon = archive_.resolved(polygons.at(k));
+            geo::Polygon outline = skyc_polygon(in(polygon, "points"));
+            if (!polygon["isInclusion"].flag()) {
+                air.audience_m.push_back(std::move(outline));
+            } else if (++inclusions == 1) {
+                air.geofence_m = std::move(outline);
+            }
+        }
+        if (inclusions > 1) air.geofence_m.clear();
+        show_.airspace = std::move(air);
     }
 
     void read_limits(const JsonNode& validation) {
@@ -130,12 +191,13 @@ class Reader {
         const auto environment = maybe(root, "environment");
         const auto location = environment ? maybe(*environment, "location") : std::nullopt;
         if (!location) return;
-        const JsonNode origin = (*location)["origin"];
+        const JsonNode origin = in(*location, "origin");
         geo::ShowOrigin result;
-        result.ground.latitude_deg = static_cast<double>(origin.at(0).whole(-900'000'000, 900'000'000)) / 1e7;
-        result.ground.longitude_deg = static_cast<double>(origin.at(1).whole(-1'800'000'000, 1'800'000'000)) / 1e7;
-        const double amsl_m = static_cast<double>(origin.at(2).whole(-1'000'000, 10'000'000)) / 1e3;
-        result.heading_deg = (*location)["orientation"].number(-360.0, 360.0);
+        result.ground.latitude_deg = origin.at(0).number(-9e8, 9e8) / 1e7;
+        result.ground.longitude_deg = origin.at(1).number(-1.8e9, 1.8e9) / 1e7;
+        if (const auto heading = location->find("orientation")) result.heading_deg = heading->number(-360.0, 360.0);
+        if (origin.size() < 3) return;
+        const double amsl_m = origin.at(2).number(-1e6, 1e7) / 1e3;
         if (!undulation_m_) return;  // an ellipsoidal height cannot be had
         result.geoid_undulation_m = undulation_m_;
         result.ground.height_m = amsl_m + *undulation_m_;
@@ -147,8 +209,8 @@ class Reader {
         const JsonNode settings = in(node, "settings");
         const auto name = settings.find("name");
         drone.name = name ? name->text() : drone_name(show_.drones.size() + 1, 1);
-        if (const auto home = settings.find("home")) drone.home_m = from_skybrush(home->point(kFarthest_m));
-        if (const auto land = settings.find("landAt")) drone.land_m = from_skybrush(land->point(kFarthest_m));
+        if (const auto home = maybe(settings, "home")) drone.home_m = from_skybrush(home->point(kFarthest_m));
+        if (const auto land = maybe(settings, "landAt")) drone.land_m = from_skybrush(land->point(kFarthest_m));
         const JsonNode trajectory = settings["trajectory"];
         const auto plain = archive_.unparsed(trajectory);
         if (!plain || !read_plain_trajectory(*plain, drone)) read_trajectory(archive_.resolved(trajectory), drone);
@@ -164,10 +226,13 @@ class Reader {
         check_version(trajectory);
         const JsonNode points = in(trajectory, "points");
         if (points.size() == 0) points.fail("needs at least one point");
+        const auto takeoff = trajectory.find("takeoffTime");
+        const double takeoff_s = takeoff ? takeoff->number(-kLongest_s, kLongest_s) : 0.0;  // points count from it
         double time_s = 0.0;
         for (std::size_t k = 0; k < points.size() && !problem().found(); ++k) {
             const JsonNode entry = points.at(k);
-            const double end_s = entry.at(0).number(0.0, kLongest_s);
+            const double end_s = takeoff_s + entry.at(0).number(-kLongest_s, kLongest_s);
+            if (!(end_s >= 0.0 && end_s <= kLongest_s)) entry.at(0).fail("must be in the show's first 86400 s");
             const Vec3 end_m = from_skybrush(entry.at(1).point(kFarthest_m));
             if (k > 0 && end_s <= time_s) entry.at(0).fail("must be later than the point before");
             if (k == 0) {
@@ -181,7 +246,7 @@ class Reader {
     }
 
     void add_piece(const JsonNode& entry, double start_s, double end_s, const Vec3& end_m, RecordedDrone& drone) {
-        const std::size_t inner = entry.size() > 2 ? entry.at(2).size() : 0;
+        const std::size_t inner = entry.size() > 2 && !entry.at(2).is_null() ? entry.at(2).size() : 0;
         if (inner > 2) entry.at(2).fail("must be at most two control points");
         const auto first = static_cast<std::uint32_t>(drone.controls_m.size() - 1);
         if (inner == 0 && end_m == drone.controls_m.back()) {
@@ -207,9 +272,11 @@ class Reader {
         drone.tracks.lights = std::move(*keys);
     }
 
-    static void read_yaw(const JsonNode& yaw, Tracks& tracks) {
+    void read_yaw(const JsonNode& yaw, Tracks& tracks) {
         check_version(yaw);
-        const JsonNode setpoints = yaw["setpoints"];
+        const auto automatic = yaw.find("autoYaw");
+        if (automatic && automatic->flag()) return;  // the vehicle's own business
+        const JsonNode setpoints = in(yaw, "setpoints");
         double last_s = -kLongest_s;
         for (std::size_t k = 0; k < setpoints.size(); ++k) {
             const JsonNode time = setpoints.at(k).at(0);
@@ -220,9 +287,9 @@ class Reader {
         }
     }
 
-    static void read_pyro(const JsonNode& pyro, Tracks& tracks) {
+    void read_pyro(const JsonNode& pyro, Tracks& tracks) {
         check_version(pyro);
-        const JsonNode events = pyro["events"];
+        const JsonNode events = in(pyro, "events");
         for (std::size_t k = 0; k < events.size(); ++k) {
             const JsonNode event = events.at(k);
             tracks.events.push_back(

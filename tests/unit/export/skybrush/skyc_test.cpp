@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "export/outgoing/curve_fit.hpp"
@@ -240,8 +241,63 @@ TEST(Skyc, RefusesCurvesThatHalfSecondPiecesCannotFollow) {
     const auto written = skyc_format().write(PlannedShow(plan), test_seal(), folder.path(), aerogram::Run{});
     ASSERT_FALSE(written.ok());
     EXPECT_EQ(written.error().code, ErrorCode::infeasible);
-    EXPECT_THAT(written.error().message, HasSubstr("skyc: drone 1 in act \"to B\": pieces of 500 ms miss the plan by"));
+    EXPECT_THAT(written.error().message, HasSubstr("skyc: drone-001: pieces of 500 ms miss the flight by"));
     EXPECT_EQ("skyc: " + skyc_format().unsuited(PlannedShow(plan)), written.error().message);
+}
+
+/// A folder-less file is judged against the airspace and the endurance that it holds.
+TEST(Skyc, CarriesAirspaceAndEndurance) {
+    const planner::FlightPlan plan = fixed::show();
+    const RecordedShow show = read_back(skyc_format(), written_files(skyc_format(), plan));
+    EXPECT_EQ(show.endurance_s, plan.endurance_s);
+    ASSERT_TRUE(show.airspace);
+    EXPECT_EQ(show.airspace->geofence_m, plan.airspace.geofence_m);
+    EXPECT_EQ(show.airspace->audience_m, plan.airspace.audience_m);
+    ASSERT_EQ(show.airspace->obstacles.size(), 2U);
+    EXPECT_EQ(show.airspace->obstacles[0].name, "mast");
+    EXPECT_EQ(std::get<geo::Cylinder>(show.airspace->obstacles[0].shape).center_m, Vec2(30.0, 10.0));
+    EXPECT_EQ(std::get<geo::Prism>(show.airspace->obstacles[1].shape).outline_m.size(), 3U);
+    const auto judgement = judge(show, {}, aerogram::Run{});
+    ASSERT_TRUE(judgement.ok());
+    const auto judged = [&](const std::string& rule) {
+        return std::ranges::count(judgement->findings, rule, &Finding::rule);
+    };
+    EXPECT_EQ(judged("geofence"), 1);
+    EXPECT_EQ(judged("audience"), 1);
+    EXPECT_EQ(judged("endurance"), 1);
+}
+
+TEST(Skyc, CarriesMusic) {
+    const ScratchFolder folder;
+    planner::FlightPlan plan = fixed::show();
+    plan.audio = folder.path() / "Some music.MP3";
+    const std::string music = "ID3" + std::string(100'000, '\x55');
+    ASSERT_TRUE(write_file(*plan.audio, music).ok());
+    EXPECT_EQ(skyc_format().unsuited(PlannedShow(plan)), "");
+    const auto files = written_files(skyc_format(), plan);
+    EXPECT_TRUE(entry(files, "audio.mp3") == music);
+    EXPECT_THAT(entry(files, "show.json"),
+                HasSubstr(R"("media":{"audio":{"data":{"$ref":"./audio.mp3"},"filename":"audio.mp3",)"
+                          R"("mediaType":"audio/mpeg","startTime":0}})"));
+    EXPECT_EQ(read_back(skyc_format(), files).drones.size(), 3U);
+}
+
+TEST(Skyc, RefusesMusicThatIsMissingTooLargeOrOfNoKnownKind) {
+    const ScratchFolder folder;
+    planner::FlightPlan plan = fixed::show();
+    const auto refusal = [&](const char* name) {
+        plan.audio = folder.path() / name;
+        return skyc_format().unsuited(PlannedShow(plan));
+    };
+    EXPECT_THAT(refusal("none.mp3"), HasSubstr("none.mp3: is missing"));
+    ASSERT_TRUE(write_file(folder.path() / "song.txt", "x").ok());
+    EXPECT_THAT(refusal("song.txt"), HasSubstr("its ending is none of mp3"));
+    ASSERT_TRUE(write_file(folder.path() / "long.mp3", "x").ok());
+    std::filesystem::resize_file(folder.path() / "long.mp3", (std::uintmax_t{64} << 20U) + 1);
+    EXPECT_THAT(refusal("long.mp3"), HasSubstr("67108865 bytes; 64 MiB is the most a show carries"));
+    const auto written = skyc_format().write(PlannedShow(plan), test_seal(), folder.path(), aerogram::Run{});
+    ASSERT_FALSE(written.ok());
+    EXPECT_EQ(written.error().code, ErrorCode::invalid_input);
 }
 
 TEST(Skyc, SameBytesWithOneAndTwoThreads) {
