@@ -13,6 +13,10 @@ void draw_facts(PageFlow& flow, const std::vector<Fact>& facts);
 void draw_table(PageFlow& flow, const Table& table);
 void draw_chart(PageFlow& flow, const Chart& chart);
 void draw_plan(PageFlow& flow, const Plan& plan);
+/// An arrow with an N. @param north  a unit vector, y up.
+void draw_north(Paper& paper, const Vec2& middle, const Vec2& north);
+/// A bar of a round length with its length beside it. @param corner  its left end. @param scale  points a metre.
+void draw_scale_bar(Paper& paper, const Vec2& corner, double scale, double longest);
 
 /// Where to put round numbers on an axis: about `count` of them in [low, high].
 [[nodiscard]] std::vector<double> round_steps(double low, double high, std::size_t count);

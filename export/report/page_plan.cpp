@@ -70,7 +70,7 @@ class PlanDrawing {
         paper_.everywhere();
         paper_.frame(corner_, size_, {inks::kRule, 0.6, Dash::solid});
         scale_bar();
-        if (plan_.north) north();
+        if (plan_.north) draw_north(paper_, corner_ + Vec2(size_.x - 26.0, 28.0), *plan_.north);
         if (plan_.name == "plan") legend();
     }
 
@@ -118,28 +118,11 @@ class PlanDrawing {
     }
 
     void scale_bar() {
-        const std::vector<double> steps = round_steps(0.0, size_.x / scale_, 5);
-        const double length_m = steps.size() > 1 ? steps[1] : 1.0, y = corner_.y + size_.y - 8.0, x = corner_.x + 8.0;
-        const double wide = length_m * scale_;
-        paper_.line({x, y}, {x + wide, y}, {inks::kText, 1.2, Dash::solid});
-        for (const double end : {x, x + wide})
-            paper_.line({end, y - 3.0}, {end, y + 1.0}, {inks::kText, 0.8, Dash::solid});
-        const std::string text = fixed_text(length_m, digits_of_steps(steps)) + " m";
-        paper_.text(text, {x + wide + 4.0, y + 1.5}, Face::bold, kSmall, inks::kText);
+        const Vec2 left = corner_ + Vec2(8.0, size_.y - 8.0);
+        draw_scale_bar(paper_, left, scale_, 0.25 * size_.x);
         const std::string axes = "→ " + plan_.across + "   ↑ " + plan_.up;
-        paper_.text(axes, {corner_.x + size_.x - paper_.width(axes, Face::regular, kSmall) - 6.0, y + 1.5},
+        paper_.text(axes, {corner_.x + size_.x - paper_.width(axes, Face::regular, kSmall) - 6.0, left.y + 1.5},
                     Face::regular, kSmall, inks::kDim);
-    }
-
-    void north() {
-        const Vec2 middle = corner_ + Vec2(size_.x - 26.0, 28.0), up(plan_.north->x, -plan_.north->y),
-                   side(-up.y, up.x);
-        const std::array<Vec2, 3> dark{middle + 15.0 * up, middle - 9.0 * up + 6.0 * side, middle - 5.0 * up};
-        const std::array<Vec2, 3> light{middle + 15.0 * up, middle - 9.0 * up - 6.0 * side, middle - 5.0 * up};
-        paper_.area(dark, inks::kText);
-        paper_.border(light, {inks::kText, 0.6, Dash::solid});
-        const Vec2 letter = middle + 21.0 * up;
-        paper_.text("N", letter + Vec2(-2.8, 2.6), Face::bold, 7.5, inks::kText);
     }
 
     void legend() {
@@ -168,6 +151,26 @@ class PlanDrawing {
 };
 
 }  // namespace
+
+void draw_north(Paper& paper, const Vec2& middle, const Vec2& north) {
+    const Vec2 up(north.x, -north.y), side(-up.y, up.x);
+    const std::array<Vec2, 3> dark{middle + 15.0 * up, middle - 9.0 * up + 6.0 * side, middle - 5.0 * up};
+    const std::array<Vec2, 3> light{middle + 15.0 * up, middle - 9.0 * up - 6.0 * side, middle - 5.0 * up};
+    paper.area(dark, inks::kText);
+    paper.border(light, {inks::kText, 0.6, Dash::solid});
+    paper.text("N", middle + 21.0 * up + Vec2(-2.8, 2.6), Face::bold, 7.5, inks::kText);
+}
+
+void draw_scale_bar(Paper& paper, const Vec2& corner, double scale, double longest) {
+    const std::vector<double> steps = round_steps(0.0, longest / scale, 1);
+    const double length_m = steps.size() > 1 ? steps[1] : 0.5 * round_steps(0.0, 2.0 * longest / scale, 1).back();
+    const double wide = length_m * scale;
+    paper.line(corner, corner + Vec2(wide, 0.0), {inks::kText, 1.2, Dash::solid});
+    for (const double end : {0.0, wide})
+        paper.line(corner + Vec2(end, -3.0), corner + Vec2(end, 1.0), {inks::kText, 0.8, Dash::solid});
+    const std::string text = fixed_text(length_m, length_m < 1.0 ? 1 : 0) + " m";
+    paper.text(text, corner + Vec2(wide + 4.0, 1.5), Face::bold, kSmall, inks::kText);
+}
 
 void draw_plan(PageFlow& flow, const Plan& plan) {
     const Extent e = extent_of(plan);

@@ -28,27 +28,29 @@ double longest_word(const Paper& paper, std::string_view text, double size) {
     return wide;
 }
 
-/// What numbers need, so that none is ever cut; of words the longest that is usual, longer ones are broken.
-std::vector<double> needed(const Paper& paper, const Table& table, double size) {
+/// What numbers need so that none is ever cut, and words for the longest that is usual (longer ones are broken); in
+/// letters of size 1.
+std::vector<double> needed(const Paper& paper, const Table& table) {
+    constexpr double kMeasured = 10.0;
     std::vector<double> wide;
     for (std::size_t c = 0; c < table.columns.size(); ++c) {
-        double least = longest_word(paper, table.columns[c].title, size);
+        double least = longest_word(paper, table.columns[c].title, kMeasured);
         for (const TableRow& row : table.rows)
-            least = std::max(least, table.columns[c].numeric
-                                        ? paper.width(row.cells[c] + "*", Face::bold, size)
-                                        : std::min(longest_word(paper, row.cells[c], size), kUsualWord * size));
-        wide.push_back(least + 2.0 * kPad);
+            least = std::max(least, table.columns[c].numeric ? paper.width(row.cells[c] + "*", Face::bold, kMeasured)
+                                                             : std::min(longest_word(paper, row.cells[c], kMeasured),
+                                                                        kUsualWord * kMeasured));
+        wide.push_back(least / kMeasured);
     }
     return wide;
 }
 
 Setting set(const Paper& paper, const Table& table, double width) {
     Setting setting;
-    std::vector<double> least;
-    for (; setting.size >= kSmallest; setting.size -= 0.2) {
-        least = needed(paper, table, setting.size);
-        if (std::accumulate(least.begin(), least.end(), 0.0) <= width) break;
-    }
+    std::vector<double> least = needed(paper, table);
+    const double pads = 2.0 * kPad * static_cast<double>(least.size());
+    const double fitting = (width - pads) / std::max(std::accumulate(least.begin(), least.end(), 0.0), 1.0);
+    setting.size = std::clamp(fitting, kSmallest, kLargest);
+    for (double& wide : least) wide = wide * setting.size + 2.0 * kPad;
     // Shares decide; a column that would be narrower than it needs gets that, and the others share what is left.
     std::vector<bool> fixed(least.size(), false);
     setting.widths.assign(least.size(), 0.0);

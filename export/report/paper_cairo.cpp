@@ -20,10 +20,11 @@ cairo_status_t append(void* bytes, const unsigned char* data, unsigned length) {
     return CAIRO_STATUS_SUCCESS;
 }
 
-/// Scripts whose letters stand side by side, in reading order, as DejaVu Sans has them: Latin, Greek, Cyrillic, signs.
+/// Scripts whose letters stand side by side, in reading order, as DejaVu Sans has them: Latin, Greek, Cyrillic, signs
+/// and boxes.
 bool is_plain(char32_t c) {
     return (c >= 0x20 && c < 0x300 && c != 0x7F) || (c >= 0x370 && c < 0x530) || (c >= 0x2010 && c < 0x2028) ||
-           (c >= 0x2030 && c < 0x205F) || (c >= 0x20A0 && c < 0x2300);
+           (c >= 0x2030 && c < 0x205F) || (c >= 0x20A0 && c < 0x2600);
 }
 
 }  // namespace

@@ -49,7 +49,9 @@ function drawLimits(u: uPlot, block: ChartBlock): void {
         const text = `${limit.name} ${fixed(limit.value, 2)}`, wide = ctx.measureText(text).width;
         const right = left + width - (3 + 110 * beside) * devicePixelRatio, base = Math.max(y - 3 * devicePixelRatio, top + 10 * devicePixelRatio), ink = ctx.fillStyle;
         ctx.fillStyle = colour('ground');
+        ctx.globalAlpha = 0.8;
         ctx.fillRect(right - wide - 2, base - 9 * devicePixelRatio, wide + 4, 11 * devicePixelRatio);
+        ctx.globalAlpha = 1;
         ctx.fillStyle = ink;
         ctx.fillText(text, right, base);
     }
@@ -75,7 +77,7 @@ function options(block: ChartBlock, width: number): uPlot.Options {
         },
         axes: [
             { ...axis, incrs: isClock ? kSteps : undefined, values: isClock ? (_u: uPlot, at: number[]) => at.map((t) => clock(t)) : undefined },
-            { ...axis, size: 62, values: block.bars ? (_u: uPlot, at: number[]) => at.map((n) => n.toLocaleString('en')) : undefined },
+            { ...axis, size: block.bars ? 84 : 56, values: block.bars ? (_u: uPlot, at: number[]) => at.map((n) => n.toLocaleString('en')) : undefined },
         ],
         series: [
             { label: isClock ? 'time' : block.xUnit, value: (_u, x) => (x === null ? '–' : isClock ? clock(x, 1) : `from ${fixed(x, 2)} ${block.xUnit}`) },

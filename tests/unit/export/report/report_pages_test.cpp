@@ -21,6 +21,9 @@ TEST(ReportPages, SamplesToLookAt) {
             ASSERT_TRUE(pdf.ok()) << pdf.error().message;
             ASSERT_TRUE(write_file(stem.string() + ".pdf", *pdf).ok());
             ASSERT_TRUE(write_file(stem.string() + ".html", report_html(r)).ok());
+            const PadSheet pads = pad_sheet(sample::facts(r), r.show_hash);
+            ASSERT_TRUE(write_file(stem.string() + "-pads.csv", pads_csv(pads)).ok());
+            ASSERT_TRUE(write_file(stem.string() + "-pads.pdf", pads_pdf(pads).value()).ok());
         }
 }
 

@@ -246,4 +246,15 @@ inline Report report(const Wishes& w) {
     return r;
 }
 
+/// What pad_sheet needs of the same show.
+inline OutgoingFacts facts(const Report& r) {
+    OutgoingFacts facts;
+    facts.title = r.title;
+    facts.origin = r.origin;
+    facts.fleet = r.drones;
+    for (std::size_t i = 0; i < r.drones; ++i)
+        facts.drones.push_back({drone_name(i + 1, r.drones), i + 1, r.homes_m[i], r.homes_m[i]});
+    return facts;
+}
+
 }  // namespace aerogram::exporter::sample
