@@ -1,5 +1,6 @@
 #include "export/scene/glb.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <map>
@@ -49,9 +50,16 @@ std::string unsuited(const OutgoingShow& show) {
            " GB; 1 GiB is the most that scene programs open";
 }
 
+int brightness(const Rgb8& color) {
+    return std::max({color.r, color.g, color.b});
+}
+
+/// The first light that is at least half as bright as the brightest: shows often begin with a faint glow.
 Rgb8 first_color(const std::vector<LightKey>& keys) {
+    int brightest = 0;
+    for (const LightKey& key : keys) brightest = std::max(brightest, brightness(quantised(key.color)));
     for (const LightKey& key : keys)
-        if (const Rgb8 color = quantised(key.color); color != Rgb8{}) return color;
+        if (const Rgb8 color = quantised(key.color); 2 * brightness(color) >= std::max(brightest, 1)) return color;
     return {};
 }
 

@@ -11,9 +11,9 @@ inline constexpr std::uint64_t kLargestGlb = std::uint64_t{1} << 30U;
 
 /// Writes a node a drone, named after it, all with one small shape; translations as CUBICSPLINE keys, which are the
 /// fitted C1 cubics themselves, rounded to floats; drones with the same key times share them. Emission of each shape is
-/// the first light of its drone; glTF cannot animate it without an extension that viewers lack, so all lights stand in
-/// a buffer view of ours, 8 bits a channel; yaw, events, home and landing place in the nodes' extras; what the show
-/// says of itself (export/outgoing/facts_json.hpp) in asset.extras.aerogram.
+/// the first bright light of its drone; glTF cannot animate it without an extension that viewers lack, so all lights
+/// stand in a buffer view of ours, 8 bits a channel; yaw, events, home and landing place in the nodes' extras; what the
+/// show says of itself (export/outgoing/facts_json.hpp) in asset.extras.aerogram.
 [[nodiscard]] const Format& glb_format();
 
 /// Format::read of glb_format(): every node that an animation moves is a drone. Other programs' files: LINEAR, STEP and

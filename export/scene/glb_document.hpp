@@ -20,7 +20,7 @@ struct GlbLayout {
         std::size_t times = 0;  ///< which of `times`
         std::uint64_t values_offset = 0;
         std::uint32_t first_light = 0, lights = 0;
-        Rgb8 first_color;  ///< dark: never lit
+        Rgb8 first_color;  ///< the first bright one; dark: never lit
     };
     std::vector<Times> times;
     std::vector<Drone> drones;
