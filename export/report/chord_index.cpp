@@ -32,11 +32,11 @@ ChordIndex::Cell ChordIndex::cell_of(const Vec3& p) const {
             static_cast<std::int32_t>(std::floor(p.z / cell_))};
 }
 
+/// Cells in a row along x are neighbours in memory.
 std::size_t ChordIndex::bucket(const Cell& c) const {
-    const std::uint64_t mixed = static_cast<std::uint32_t>(c.x) * 0x9E3779B97F4A7C15ULL ^
-                                static_cast<std::uint32_t>(c.y) * 0xC2B2AE3D27D4EB4FULL ^
+    const std::uint64_t mixed = static_cast<std::uint32_t>(c.y) * 0xC2B2AE3D27D4EB4FULL ^
                                 static_cast<std::uint32_t>(c.z) * 0x165667B19E3779F9ULL;
-    return static_cast<std::size_t>((mixed * 0x9E3779B97F4A7C15ULL) >> 32) & mask_;
+    return static_cast<std::size_t>(((mixed * 0x9E3779B97F4A7C15ULL) >> 32) + static_cast<std::uint32_t>(c.x)) & mask_;
 }
 
 /// Without drift: whoever stands is one entry however long. With drift: where drones stand on pads, which are left out.
@@ -188,17 +188,18 @@ void ChordIndex::look_around(const Mover& way, const Vec3& low, const Vec3& high
         const bool last = found.distance <= reach;
         const Vec3 wider(std::min(reach, found.distance) + kRounding_m);
         const Vec3 cells = (high - low + 2.0 * wider) / cell_ + 2.0;
-        if (cells.x * cells.y * cells.z > 0.25 * static_cast<double>(entries_.size())) {
+        if (cells.x * cells.y * cells.z > 0.25 * static_cast<double>(std::min(entries_.size(), mask_))) {
             for (const std::uint32_t entry : entries_) meet(entry, way, stance, found);
             return;
         }
         const Cell from = cell_of(low - wider), to = cell_of(high + wider);
         for (std::int32_t z = from.z; z <= to.z; ++z) {
             for (std::int32_t y = from.y; y <= to.y; ++y) {
-                for (std::int32_t x = from.x; x <= to.x; ++x) {
-                    const std::size_t b = bucket({x, y, z});
-                    for (std::size_t i = starts_[b]; i < starts_[b + 1]; ++i) meet(entries_[i], way, stance, found);
-                }
+                const std::size_t begin = bucket({from.x, y, z}), cells_x = static_cast<std::size_t>(to.x - from.x) + 1;
+                const std::size_t end = std::min(begin + cells_x, mask_ + 1);
+                for (std::size_t i = starts_[begin]; i < starts_[end]; ++i) meet(entries_[i], way, stance, found);
+                const std::size_t over = begin + cells_x - end;  // the row goes on at the table's beginning
+                for (std::size_t i = 0; i < starts_[over]; ++i) meet(entries_[i], way, stance, found);
             }
         }
         if (last || found.distance <= reach) return;

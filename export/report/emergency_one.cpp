@@ -19,7 +19,7 @@ class OneLeaves {
         for (const Place& p : all.places) highest_ = std::max(highest_, static_cast<double>(p.z));
     }
 
-    /// Braking, standing, lying on the ground, crossing.
+    /// Standing, lying on the ground, crossing.
     void without_drift(const ChordIndex& index, std::size_t drone, std::size_t second, Manoeuvres& worst) const {
         const Stop stop = stop_of(all_, model_, drone, second);
         if (!stop.in_air) return;
@@ -28,7 +28,6 @@ class OneLeaves {
         const Stance down = stop.stance == Stance::above_pad ? Stance::on_pad : Stance::flying;
         index.ask({drone, down, landed(drone, stop), alarm_s + landed_s(drone, stop)}, worst.land);
         cross(index, drone, alarm_s, way_home(all_, model_, drone, stop), worst.back);
-        stop_short(index, drone, alarm_s, stop, worst);
     }
 
     void sinking(const ChordIndex& index, std::size_t drone, std::size_t second, Manoeuvres& worst) const {
@@ -57,24 +56,6 @@ class OneLeaves {
         return model_.wait_s + (stop.hold.z - landed(drone, stop).z) / model_.land_mps;
     }
 
-    /// From the alarm until it descends or rises: part of all three manoeuvres.
-    void stop_short(const ChordIndex& index, std::size_t drone, double alarm_s, const Stop& stop,
-                    Manoeuvres& worst) const {
-        Found found;
-        found.distance = std::max({worst.hold.distance, worst.land.distance, worst.back.distance});
-        const double before = found.distance;
-        for (double from_s = 0.0; from_s < stop.brake_s; from_s += all_.step_s()) {
-            const double to_s = std::min(from_s + all_.step_s(), stop.brake_s);
-            index.ask(Mover{stop.at(from_s), stop.at(to_s), alarm_s + from_s, alarm_s + to_s,
-                            static_cast<std::uint32_t>(drone)},
-                      Stance::flying, found);
-        }
-        index.ask({drone, stop.stance, stop.hold, alarm_s + stop.brake_s, alarm_s + model_.wait_s}, found);
-        if (!(found.distance < before)) return;
-        for (Found* each : {&worst.hold, &worst.land, &worst.back})
-            each->note(found.distance, found.first, found.second, found.time_s);
-    }
-
     void cross(const ChordIndex& index, std::size_t drone, double alarm_s, const Way& way, Found& found) const {
         index.ask({drone, Stance::on_pad, way.home, alarm_s + way.home_s}, found);
         if (way.high.z - highest_ > found.distance || alarm_s + way.cross_s > all_.duration_s) return;
@@ -93,6 +74,104 @@ class OneLeaves {
     const EmergencyModel& model_;
     double highest_ = -std::numeric_limits<double>::infinity();
 };
+
+/// From the alarm until the drone that left descends or rises: part of all three manoeuvres. One drone that brakes
+/// among the others that fly on, for each of them at once, step by step.
+class Braking {
+  public:
+    Braking(const Survey& all, const EmergencyModel& model) : all_(all), model_(model) {}
+
+    void at(std::size_t second, Manoeuvres& worst) {
+        const double alarm_s = static_cast<double>(second);
+        stops_.clear();
+        for (std::size_t d = 0; d < all_.drones.size(); ++d) stops_.push_back(stop_of(all_, model_, d, second));
+        Found found;
+        found.distance = std::max({worst.hold.distance, worst.land.distance, worst.back.distance});
+        if (!std::isfinite(found.distance)) return;
+        for (double from_s = 0.0; from_s < model_.wait_s - 1e-9; from_s += all_.step_s())
+            step(alarm_s, from_s, std::min(from_s + all_.step_s(), model_.wait_s), found);
+        for (Found* each : {&worst.hold, &worst.land, &worst.back})
+            each->note(found.distance, found.first, found.second, found.time_s);
+    }
+
+    /// The closest pair at the alarm itself, of which one at least is in the air: no manoeuvre does better.
+    void begin(std::size_t second, Found& found) {
+        movers_.clear();
+        stops_.clear();
+        for (std::uint32_t d = 0; d < all_.drones.size(); ++d) {
+            stops_.push_back(stop_of(all_, model_, d, second));
+            const double t_s = static_cast<double>(second);
+            movers_.push_back({stops_.back().from, stops_.back().from, t_s, t_s, d});
+        }
+        const auto note = [&](std::size_t i, std::size_t j) {
+            const double distance = glm::length(movers_[i].from - movers_[j].from);
+            if (!(distance < found.distance) || !(stops_[i].in_air || stops_[j].in_air)) return;
+            const double t_s = static_cast<double>(second);
+            const std::size_t first = stops_[i].in_air ? i : j;
+            if (!all_.excuses(i, j, t_s)) found.note(distance, first, i + j - first, t_s);
+        };
+        for (std::size_t d = 0; d + 1 < movers_.size(); ++d) note(d, d + 1);
+        for (std::size_t i = 0; i < stops_.size() && !std::isfinite(found.distance); ++i) {
+            if (!stops_[i].in_air) continue;
+            for (std::size_t j = 0; j < stops_.size(); ++j)
+                if (j != i) note(i, j);
+        }
+        if (!std::isfinite(found.distance)) return;
+        grid_.search(movers_, found.distance, [&](std::size_t i, std::size_t j) {
+            note(i, j);
+            return found.distance;
+        });
+    }
+
+  private:
+    /// Those that brake first, then all as they fly on.
+    void step(double alarm_s, double from_s, double to_s, Found& found) {
+        movers_.clear();
+        bool moves = false;
+        for (std::uint32_t d = 0; d < stops_.size(); ++d) {
+            if (!stops_[d].in_air) continue;
+            movers_.push_back({stops_[d].at(from_s), stops_[d].at(to_s), alarm_s + from_s, alarm_s + to_s, d});
+            moves = moves || movers_.back().from != movers_.back().to;
+        }
+        const std::size_t braking = movers_.size();
+        for (std::uint32_t d = 0; d < stops_.size(); ++d) {
+            movers_.push_back({all_.place_at(d, alarm_s + from_s), all_.place_at(d, alarm_s + to_s), alarm_s + from_s,
+                               alarm_s + to_s, d});
+            moves = moves || movers_.back().from != movers_.back().to;
+        }
+        if (!moves && from_s > 0.0) return;
+        grid_.search(movers_, found.distance, [&](std::size_t i, std::size_t j) {
+            if (i >= braking || j < braking || movers_[i].drone == movers_[j].drone) return found.distance;
+            const Nearest near = closest_approach(movers_[i], movers_[j]);
+            if (!(near.distance_m < found.distance)) return found.distance;
+            const Stop& stop = stops_[movers_[i].drone];
+            const Stance stance = near.u - alarm_s < stop.brake_s ? Stance::flying : stop.stance;
+            const std::uint32_t other = movers_[j].drone;
+            if (!all_.excuses(movers_[i].drone, stance, other, all_.stance(other, near.u)))
+                found.note(near.distance_m, movers_[i].drone, other, near.u);
+            return found.distance;
+        });
+    }
+
+    const Survey& all_;
+    const EmergencyModel& model_;
+    std::vector<Stop> stops_;
+    std::vector<Mover> movers_;
+    PairGrid grid_;
+};
+
+/// Each second on its own.
+template <class Step>
+void for_seconds(const Survey& all, const EmergencyModel& model, const Run& run, std::string_view stage,
+                 const Step& step) {
+    parallel_for((all.seconds + kSecondsATask - 1) / kSecondsATask, run, stage, [&](std::size_t task) {
+        Braking braking(all, model);
+        for (std::size_t s = task * kSecondsATask; s < std::min(all.seconds, (task + 1) * kSecondsATask); ++s) {
+            if (run.stopped()) return;
+            step(braking, s);
+        }
+    });
+}
 
 /// Everybody at every second; first those who were the worst a second ago, so that most others are soon seen to be
 /// farther.
@@ -114,6 +193,11 @@ void for_everybody(const Survey& all, const Run& run, std::string_view stage, st
 
 std::vector<Manoeuvres> one_leaves(const Survey& all, const EmergencyModel& model, const Run& run) {
     std::vector<Manoeuvres> worst(all.seconds);
+    for_seconds(all, model, run, "one drone leaves", [&](Braking& braking, std::size_t s) {
+        Found found;
+        braking.begin(s, found);
+        worst[s] = {found, found, found};
+    });
     const OneLeaves one(all, model);
     {
         const ChordIndex index(all, 0.0, run);
@@ -125,9 +209,12 @@ std::vector<Manoeuvres> one_leaves(const Survey& all, const EmergencyModel& mode
         for_everybody(all, run, "one drone lands", worst,
                       [&](std::size_t d, std::size_t s, Manoeuvres& found) { one.sinking(index, d, s, found); });
     }
-    const ChordIndex index(all, model.rise_mps, run);
-    for_everybody(all, run, "one drone returns", worst,
-                  [&](std::size_t d, std::size_t s, Manoeuvres& found) { one.rising(index, d, s, found); });
+    {
+        const ChordIndex index(all, model.rise_mps, run);
+        for_everybody(all, run, "one drone returns", worst,
+                      [&](std::size_t d, std::size_t s, Manoeuvres& found) { one.rising(index, d, s, found); });
+    }
+    for_seconds(all, model, run, "one drone brakes", [&](Braking& braking, std::size_t s) { braking.at(s, worst[s]); });
     return worst;
 }
 

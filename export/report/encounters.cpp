@@ -14,6 +14,7 @@ constexpr std::size_t kShown = 20, kKept = 60;
 constexpr std::size_t kStepsATask = 64;
 constexpr double kAgain = 1.1;  ///< two minima of a pair are two approaches if it is that much farther between
 constexpr double kEqual_m = 1e-4;
+constexpr std::size_t kMostDroneInstants = 4'000'000;  ///< at which alignments are looked for
 
 /// A pair near each other from one of the report's times to another.
 struct Approach {
@@ -196,12 +197,14 @@ void report_alignments(const OutgoingShow& show, const Survey& all, const Run& r
     report.alignment_height_m = height_m;
     const Vec3 scale{1.0 / radius_m, 1.0 / radius_m, all.downwash / height_m};
     const std::vector<double>& times_s = report.times_s;
+    const std::size_t every = 1 + all.drones.size() * times_s.size() / kMostDroneInstants;
     std::vector<Closest> parts((times_s.size() + kStepsATask - 1) / kStepsATask, Closest(radius_m + height_m));
     parallel_for(parts.size(), run, "finding alignments", [&](std::size_t part) {
         Closest& closest = parts[part];
         PairGrid grid;
         std::vector<Mover> movers(all.drones.size());
         for (std::size_t k = part * kStepsATask; k < std::min(times_s.size(), (part + 1) * kStepsATask); ++k) {
+            if (k % every != 0) continue;
             for (std::uint32_t d = 0; d < movers.size(); ++d) {
                 const Vec3 at = scale * all.place_at(d, times_s[k]);
                 movers[d] = {at, at, times_s[k], times_s[k], d};
@@ -211,13 +214,14 @@ void report_alignments(const OutgoingShow& show, const Survey& all, const Run& r
                 if (d.x * d.x + d.y * d.y <= 1.0 && std::abs(d.z) <= 1.0) {
                     const double distance_m = glm::length(d / scale);
                     if (distance_m < closest.reach_m() && !all.excuses(i, j, times_s[k]))
-                        closest.note({movers[i].drone, movers[j].drone, distance_m, times_s[k], k});
+                        closest.note({movers[i].drone, movers[j].drone, distance_m, times_s[k], k / every});
                 }
                 return std::sqrt(2.0);
             });
         }
     });
-    report.alignments = refined(show, all, parts, 0.5 * report.step_s, {radius_m, height_m}, true);
+    report.alignments =
+        refined(show, all, parts, 0.5 * report.step_s * static_cast<double>(every), {radius_m, height_m}, true);
 }
 
 }  // namespace aerogram::exporter
