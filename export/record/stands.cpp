@@ -14,6 +14,7 @@ namespace {
 constexpr Millis kCell_ms = kShortestStand_ms / 2;
 constexpr Millis kTick_ms = 10;
 constexpr double kOverPad_m = 0.05;
+constexpr double kCreep_mps = 0.05;  ///< who creeps through the tolerance at this speed does not stand
 
 struct Box {
     Vec3 low{std::numeric_limits<double>::infinity()}, high{-std::numeric_limits<double>::infinity()};
@@ -126,17 +127,23 @@ Stand widened(const RecordedShow& show, const Cells& cells, std::size_t cell, Mi
     return stand;
 }
 
-/// A fleet that creeps into a formation or out of it seems to stand beside where it stands: the longer span counts.
-void leave_out_creeping(std::vector<Stand>& found, double tolerance_m) {
-    const auto same = [&](const Stand& a, const Stand& b) {
-        if (b.from_ms - a.to_ms > kCell_ms) return false;
+/// A fleet that creeps into a formation or out of it seems to stand beside where it stands: of spans that follow each
+/// other so closely in time and place the longest counts.
+void leave_out_creeping(std::vector<Stand>& found) {
+    constexpr Millis kClose_ms = 1000;
+    constexpr double kClose_m = 0.3;
+    const auto creeps = [&](const Stand& a, const Stand& b) {
+        if (b.from_ms - a.to_ms > kClose_ms) return false;
         for (std::size_t d = 0; d < a.places_m.size(); ++d)
-            if (glm::length(a.places_m[d] - b.places_m[d]) > 3.0 * tolerance_m) return false;
+            if (glm::length(a.places_m[d] - b.places_m[d]) > kClose_m) return false;
         return true;
     };
     std::vector<Stand> kept;
+    Stand before;
     for (Stand& stand : found) {
-        if (kept.empty() || !same(kept.back(), stand)) {
+        const bool goes_on = !kept.empty() && creeps(before, stand);
+        before = stand;
+        if (!goes_on) {
             kept.push_back(std::move(stand));
         } else if (stand.to_ms - stand.from_ms > kept.back().to_ms - kept.back().from_ms) {
             kept.back() = std::move(stand);
@@ -175,7 +182,8 @@ void tell_aloft(const RecordedShow& show, std::vector<Stand>& found) {
 }  // namespace
 
 double standing_tolerance_m(const Rounding& rounding) {
-    return 2.0 * (rounding.fit_m + std::sqrt(3.0) * rounding.position_m) + 0.001;
+    const double fit_m = rounding.has_acceleration ? 0.0 : rounding.fit_m;  // curves stand exactly, lines may slant
+    return 2.0 * (fit_m + std::sqrt(3.0) * rounding.position_m) + 0.001;
 }
 
 Result<std::vector<Stand>> stands(const RecordedShow& show, const Run& run) {
@@ -183,6 +191,7 @@ Result<std::vector<Stand>> stands(const RecordedShow& show, const Run& run) {
     double longest_s = show.duration_s;
     for (const RecordedDrone& drone : show.drones) longest_s = std::max(longest_s, end_s(drone));
     const Millis end_ms = std::max<Millis>(1, static_cast<Millis>(std::ceil(longest_s * 1000.0)));
+    const Millis shortest_ms = std::max(kShortestStand_ms, static_cast<Millis>(tolerance_m / kCreep_mps * 1000.0));
     const auto cells = still_cells(show, end_ms, tolerance_m, run);
     if (!cells) return cells.error();
     std::vector<Stand> found;
@@ -193,14 +202,14 @@ Result<std::vector<Stand>> stands(const RecordedShow& show, const Run& run) {
         Stand stand = widened(show, *cells, c, end_ms, tolerance_m);
         if (!found.empty()) stand.from_ms = std::max(stand.from_ms, found.back().to_ms);
         if (run.stopped()) return stopped_error();
-        if (stand.to_ms - stand.from_ms < kShortestStand_ms) continue;
+        if (stand.to_ms - stand.from_ms < shortest_ms) continue;
         const Points middle_m = places_at(show, seconds_from_ms((stand.from_ms + stand.to_ms) / 2));
         found.push_back(std::move(stand));
         if (everybody_at(show, middle_m, seconds_from_ms(found.back().from_ms), tolerance_m) &&
             everybody_at(show, middle_m, seconds_from_ms(found.back().to_ms), tolerance_m))
             found.back().places_m = middle_m;
     }
-    leave_out_creeping(found, tolerance_m);
+    leave_out_creeping(found);
     tell_aloft(show, found);
     return found;
 }

@@ -5,7 +5,9 @@
 #include <utility>
 #include <vector>
 
+#include "export/convert.hpp"
 #include "export/export_show.hpp"
+#include "export/import_mission.hpp"
 #include "export/picture/formation_facts.hpp"
 #include "export/record/recorded_show.hpp"
 #include "export/verify_show.hpp"
@@ -25,8 +27,10 @@ struct InspectedFormation {
 std::string plan_answer(const planner::FlightPlan& plan, const exporter::ExportedShow& shown,
                         const std::filesystem::path& out);
 std::string verify_answer(const std::vector<std::pair<std::filesystem::path, exporter::Verified>>& verified);
-std::string inspect_answer(const exporter::RecordedShow& show, const std::vector<double>& at_s,
+std::string inspect_answer(const exporter::OpenedShow& opened, const std::vector<double>& at_s,
                            const std::optional<std::filesystem::path>& picture);
+std::string convert_answer(const exporter::Converted& converted);
+std::string import_answer(const exporter::Imported& imported);
 /// One keyframe's object, or, of a clip's name, {"keyframes": [...]} with one a frame. @param picture  what was
 /// written.
 std::string formation_answer(const std::vector<InspectedFormation>& inspected,

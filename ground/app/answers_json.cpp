@@ -132,39 +132,6 @@ std::string verify_answer(const std::vector<std::pair<std::filesystem::path, exp
     return text({{"held", all}, {"paths", paths}});
 }
 
-std::string inspect_answer(const exporter::RecordedShow& show, const std::vector<double>& at_s,
-                           const std::optional<std::filesystem::path>& picture) {
-    Json drones = Json::array();
-    for (const auto& drone : show.drones) {
-        Json entry = {{"name", drone.name},
-                      {"home_m", drone.home_m ? vector_json(*drone.home_m) : Json(nullptr)},
-                      {"pieces", drone.pieces.size()},
-                      {"waypoints", drone.waypoints.size()},
-                      {"light_keys", drone.tracks.lights.size()}};
-        if (!at_s.empty() && !drone.pieces.empty()) {
-            Json states = Json::array();
-            for (const double t_s : at_s) {
-                states.push_back({{"time_s", t_s},
-                                  {"position_m", vector_json(exporter::position_at(drone, t_s))},
-                                  {"color", hex_from_rgb(light_at(drone.tracks.lights, t_s))}});
-            }
-            entry["at"] = states;
-        }
-        drones.push_back(entry);
-    }
-    Json cues = Json::array();
-    for (const Cue& cue : show.cues) cues.push_back({{"name", cue.name}, {"time_s", seconds_from_ms(cue.time_ms)}});
-    return text({{"format", show.format},
-                 {"title", show.title},
-                 {"show_hash", or_null(show.show_hash)},
-                 {"certified", or_null(show.certified)},
-                 {"timed", show.timed},
-                 {"duration_s", show.duration_s},
-                 {"drones", drones},
-                 {"cues", cues},
-                 {"picture", path_json(picture)}});
-}
-
 std::string formation_answer(const std::vector<InspectedFormation>& inspected,
                              const std::optional<std::filesystem::path>& picture) {
     if (inspected.size() == 1) {

@@ -19,6 +19,8 @@ int run_verify(const VerifyCommand& command, const Session& session);
 int run_inspect(const InspectCommand& command, const Session& session);
 /// The part of inspect that looks at missions.
 int run_inspect_mission(const InspectCommand& command, const Session& session);
+/// Writes a show in another format, or imports it as a mission.
+int run_convert(const ConvertCommand& command, const Session& session);
 int run_new(const NewCommand& command, const Session& session);
 
 /// Writes a picture whole or not at all; never over what is inspected.

@@ -27,6 +27,7 @@ int dispatch(const CommandLine& line) {
     if (const auto* plan = std::get_if<PlanCommand>(&line.command)) return run_plan(*plan, session);
     if (const auto* verify = std::get_if<VerifyCommand>(&line.command)) return run_verify(*verify, session);
     if (const auto* inspect = std::get_if<InspectCommand>(&line.command)) return run_inspect(*inspect, session);
+    if (const auto* convert = std::get_if<ConvertCommand>(&line.command)) return run_convert(*convert, session);
     return run_new(std::get<NewCommand>(line.command), session);
 }
 

@@ -8,9 +8,12 @@
 #include "ground/app/answers.hpp"
 #include "ground/app/commands.hpp"
 #include "ground/app/exit_status.hpp"
+#include "ground/app/wishes.hpp"
 #include "ground/app/words.hpp"
 #include "planner/mission/mission_reader.hpp"
+#include "planner/mission/sections.hpp"
 #include "planner/plan.hpp"
+#include "planner/replace.hpp"
 
 namespace aerogram::ground {
 namespace {
@@ -122,16 +125,59 @@ void tell_violations(const FlightPlan& plan, Console& console) {
     }
 }
 
+/// The mission with what was typed in the place of its [export].
+Result<planner::Mission> mission_of(const PlanCommand& command) {
+    if (const Status known = check_format_names(command.formats); !known) return known.error();
+    planner::ExportWishes wishes;
+    const TypedWishes typed{command.start_utc, command.timing, command.autopilot, command.vviz};
+    if (const Status sound = take_wishes(typed, wishes); !sound) return sound.error();
+    auto mission = planner::read_mission(command.mission);
+    if (mission) static_cast<void>(take_wishes(typed, mission->exporting));
+    return mission;
+}
+
+Result<std::vector<DroneId>> drones_of(const PlanCommand& command, const planner::Mission& mission) {
+    if (command.drones.empty()) return std::vector<DroneId>{};
+    auto drones = planner::parse_drone_list(command.drones, mission.fleet.drones);
+    if (!drones) return Error{drones.error().code, "--drones " + command.drones + ": " + drones.error().message};
+    return drones;
+}
+
+Result<std::vector<planner::Replacement>> replacements_of(const PlanCommand& command) {
+    std::vector<planner::Replacement> replacements;
+    for (const std::string& text : command.replace) {
+        const auto replacement = planner::parse_replacement(text);
+        if (!replacement) return Error{replacement.error().code, "--replace " + replacement.error().message};
+        replacements.push_back(*replacement);
+    }
+    return replacements;
+}
+
+/// The certified plan, or with --best-effort any; with spare drones in the place of others.
+Result<FlightPlan> plan_of(const planner::Mission& mission, const PlanCommand& command,
+                           const std::vector<planner::Replacement>& replacements, const Run& run) {
+    auto plan = planner::plan(mission, {command.best_effort}, run);
+    if (!plan || replacements.empty()) return plan;
+    auto changed = planner::replaced(std::move(*plan), replacements, run);
+    if (!changed && changed.error().code != ErrorCode::stopped)
+        return Error{changed.error().code, "--replace " + changed.error().message};
+    return changed;
+}
+
 }  // namespace
 
 int run_plan(const PlanCommand& command, const Session& session) {
     const auto out = command.out.empty() ? std::filesystem::path("out") / command.mission.stem() : command.out;
-    auto mission = planner::read_mission(command.mission);
+    const auto mission = mission_of(command);
     if (!mission) return report_error(mission.error(), session);
-    auto plan = planner::plan(*mission, {command.best_effort}, session.run);
+    const auto drones = drones_of(command, *mission);
+    if (!drones) return report_error(drones.error(), session);
+    const auto replacements = replacements_of(command);
+    if (!replacements) return report_error(replacements.error(), session);
+    const auto plan = plan_of(*mission, command, *replacements, session.run);
     if (!plan) return report_error(plan.error(), session);
-    auto shown = exporter::export_show(
-        *plan, out, {.formats = command.formats, .best_effort = command.best_effort, .drones = {}}, session.run);
+    const auto shown = exporter::export_show(
+        *plan, out, {.formats = command.formats, .best_effort = command.best_effort, .drones = *drones}, session.run);
     if (!shown) return report_error(shown.error(), session);
     session.console.clear_line();
     if (!shown->certified) tell_violations(*plan, session.console);
@@ -139,6 +185,9 @@ int run_plan(const PlanCommand& command, const Session& session) {
         std::cout << plan_answer(*plan, *shown, out);
     } else if (!session.quiet) {
         std::cout << summary(*plan, *shown, out);
+        if (!drones->empty()) std::cout << "only           " << counted(drones->size(), "drone") << " of these\n";
+        for (const auto& [drone, pad] : *replacements)
+            std::cout << "replaced       drone " << drone.number() << " flies from pad " << pad.number() << "\n";
     }
     return shown->certified ? kDone : kCannotBeFlown;
 }
