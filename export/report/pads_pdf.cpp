@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <optional>
 
 #include "export/report/pads_plan.hpp"
@@ -11,38 +12,47 @@ namespace {
 
 constexpr std::size_t kRoomyFleet = 100;  ///< drones; more stand in two columns a page, by numbers only
 
+std::vector<Column> columns_of(bool roomy, bool placed) {
+    std::vector<Column> columns{{"Pad", 5, true}, {"Drone", 6, true}};
+    if (roomy) columns.push_back({"Name", 14});
+    columns.push_back({"Link/Id", 7, true});
+    columns.push_back({"x (m)", 8, true});
+    columns.push_back({"y (m)", 8, true});
+    if (roomy) columns.push_back({"z (m)", 8, true});
+    if (placed) columns.push_back({"Latitude °", 12, true});
+    if (placed) columns.push_back({"Longitude °", 12, true});
+    columns.push_back({"□", 4, true});
+    return columns;
+}
+
 Table rows_of(const PadSheet& sheet) {
     const bool roomy = sheet.rows.size() <= kRoomyFleet;
-    Table table{"pads", "", {}, {}};
+    Table table{"pads", "", columns_of(roomy, sheet.origin.has_value()), {}};
     table.side_by_side = roomy ? 1 : 2;
-    table.columns = {{"Pad", 5, true}, {"Drone", 6, true}};
-    if (roomy) table.columns.push_back({"Name", 14});
-    for (const char* title : {"Link", "Id"}) table.columns.push_back({title, 4, true});
-    for (const char* title : {"x (m)", "y (m)", "z (m)"}) table.columns.push_back({title, 8, true});
-    if (sheet.origin)
-        for (const char* title : {"Latitude °", "Longitude °"}) table.columns.push_back({title, 12, true});
-    table.columns.push_back({"□", 4, true});
     const std::optional<geo::ShowFrame> frame =
         sheet.origin ? std::optional<geo::ShowFrame>(*sheet.origin) : std::nullopt;
     for (const PadSheet::Row& row : sheet.rows) {
         TableRow cells{{std::to_string(row.pad), std::to_string(row.drone)}, false, {}};
-        if (roomy) cells.cells.push_back(row.name);
-        cells.cells.insert(cells.cells.end(), {std::to_string(row.link), std::to_string(row.system_id)});
-        for (const double metres : {row.home_m.x, row.home_m.y, row.home_m.z})
-            cells.cells.push_back(fixed_text(metres, 2));
+        const auto add = [&](std::string text) { cells.cells.push_back(std::move(text)); };
+        if (roomy) add(row.name);
+        add(std::to_string(row.link) + "/" + std::to_string(row.system_id));
+        add(fixed_text(row.home_m.x, 2));
+        add(fixed_text(row.home_m.y, 2));
+        if (roomy) add(fixed_text(row.home_m.z, 2));
         if (frame) {
             const geo::Geodetic place = frame->to_geodetic(row.home_m);
-            cells.cells.insert(cells.cells.end(),
-                               {fixed_text(place.latitude_deg, 7), fixed_text(place.longitude_deg, 7)});
+            add(fixed_text(place.latitude_deg, 7));
+            add(fixed_text(place.longitude_deg, 7));
         }
-        cells.cells.emplace_back("□");
+        add("□");
         table.rows.push_back(std::move(cells));
     }
     return table;
 }
 
 std::vector<Fact> facts_of(const PadSheet& sheet) {
-    const std::size_t links = sheet.rows.empty() ? 0 : sheet.rows.back().link;
+    std::size_t links = 0;
+    for (const PadSheet::Row& row : sheet.rows) links = std::max(links, row.link);
     std::vector<Fact> facts{{"Drones", count_text(sheet.rows.size())},
                             {"Links", count_text(links) + ", system ids 1 to 250 on each"}};
     if (sheet.origin) {
@@ -51,6 +61,7 @@ std::vector<Fact> facts_of(const PadSheet& sheet) {
     } else {
         facts.push_back({"Origin", "none: positions are in the show frame only"});
     }
+    if (sheet.rows.size() > kRoomyFleet) facts.push_back({"Names, heights", "in pads.csv"});
     return facts;
 }
 

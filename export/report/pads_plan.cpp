@@ -12,14 +12,15 @@
 namespace aerogram::exporter {
 namespace {
 
-constexpr double kNumber = 6.0, kRim = 20.0;  ///< letters of the numbers; between the frame and the first pad
-constexpr double kLargestScale = 28.0;        ///< points a metre: about 1:100
+constexpr double kNumber = 6.0, kLargestNumber = 11.0;  ///< letters of the numbers
+constexpr double kRim = 24.0;                           ///< between the frame and the first pad
+constexpr double kLargestScale = 57.0;                  ///< points a metre: about 1:50
 constexpr double kTitleRoom = 34.0;
 
 /// How the field is cut into sheets.
 struct Sheets {
     Vec2 low{}, tile_m{};
-    double scale = 1.0;
+    double scale = 1.0, number = kNumber;
     std::size_t across = 1, deep = 1;
     Vec2 size{};  ///< of a frame on paper
 
@@ -53,9 +54,10 @@ Sheets cut_up(const Paper& paper, const PadSheet& sheet, double room) {
     sheets.low = low;
     sheets.size = {kColumn, room - kTitleRoom};
     const Vec2 inside = sheets.size - Vec2(2.0 * kRim), field = high - low;
-    const double needed = std::max(number + 2.0, 2.0 * kNumber + 1.0) / usual_spacing(sheet);
+    const double spacing_m = usual_spacing(sheet), needed = std::max(number + 2.0, 2.0 * kNumber + 1.0) / spacing_m;
     const double whole = std::min(inside.x / std::max(field.x, 1e-3), inside.y / std::max(field.y, 1e-3));
     sheets.scale = std::min(std::max(needed, whole), std::max(needed, kLargestScale));
+    sheets.number = std::clamp(kNumber * sheets.scale / needed, kNumber, kLargestNumber);
     sheets.tile_m = inside / sheets.scale;
     const auto count = [](double length, double tile) {
         return static_cast<std::size_t>(std::max(1.0, std::ceil(length / tile - 1e-9)));
@@ -152,10 +154,11 @@ class PadsPlan {
             const Vec2 p = sheets_.scale * (Vec2(row->home_m.x, row->home_m.y) - 0.5 * (low + high));
             pads.push_back(middle + Vec2(p.x, -p.y));
             const std::string number = std::to_string(row->pad);
-            const double wide = paper_.width(number, Face::bold, kNumber);
-            paper_.text(number, pads.back() + Vec2(-0.5 * wide, -2.2), Face::bold, kNumber, inks::kText);
+            const double wide = paper_.width(number, Face::bold, sheets_.number);
+            paper_.text(number, pads.back() + Vec2(-0.5 * wide, -0.4 * sheets_.number), Face::bold, sheets_.number,
+                        inks::kText);
         }
-        paper_.dots(pads, 1.1, inks::kText);
+        paper_.dots(pads, 0.18 * sheets_.number, inks::kText);
         neighbours(tile, corner);
         edges(corner, sheets_.scale);
     }

@@ -162,13 +162,15 @@ void draw_north(Paper& paper, const Vec2& middle, const Vec2& north) {
 }
 
 void draw_scale_bar(Paper& paper, const Vec2& corner, double scale, double longest) {
-    const std::vector<double> steps = round_steps(0.0, longest / scale, 1);
-    const double length_m = steps.size() > 1 ? steps[1] : 0.5 * round_steps(0.0, 2.0 * longest / scale, 1).back();
+    const double most_m = longest / scale, power = std::pow(10.0, std::floor(std::log10(most_m)));
+    double length_m = power;
+    for (const double factor : {2.0, 5.0})
+        if (factor * power <= most_m) length_m = factor * power;
     const double wide = length_m * scale;
     paper.line(corner, corner + Vec2(wide, 0.0), {inks::kText, 1.2, Dash::solid});
     for (const double end : {0.0, wide})
         paper.line(corner + Vec2(end, -3.0), corner + Vec2(end, 1.0), {inks::kText, 0.8, Dash::solid});
-    const std::string text = fixed_text(length_m, length_m < 1.0 ? 1 : 0) + " m";
+    const std::string text = fixed_text(length_m, length_m < 1.0 ? 2 : 0) + " m";
     paper.text(text, corner + Vec2(wide + 4.0, 1.5), Face::bold, kSmall, inks::kText);
 }
 

@@ -2,6 +2,7 @@
 #include <cairo.h>
 
 #include <array>
+#include <map>
 
 #include "export/picture/lettering.hpp"
 #include "export/report/paper.hpp"
@@ -27,6 +28,18 @@ bool is_plain(char32_t c) {
            (c >= 0x2030 && c < 0x205F) || (c >= 0x20A0 && c < 0x2600);
 }
 
+/// The text without what is not UTF-8: the library refuses such metadata.
+std::string valid(std::string_view text) {
+    std::string clean;
+    while (!text.empty()) {
+        const std::string_view character = planner::first_character(text);
+        const bool malformed = character.size() == 1 && planner::code_point(character) >= 0x80;
+        clean += malformed ? "?" : std::string(character);
+        text.remove_prefix(character.size());
+    }
+    return clean;
+}
+
 }  // namespace
 
 struct Paper::Impl {
@@ -36,6 +49,12 @@ struct Paper::Impl {
     Lettering lettering;
     std::unique_ptr<cairo_surface_t, Deleter> surface;
     std::unique_ptr<cairo_t, Deleter> pen;
+    std::map<std::string, Label, std::less<>> labels;  // in letters of size 1; finding their fonts takes long
+
+    const Label& label(const std::string& text) {
+        const auto found = labels.find(text);
+        return found != labels.end() ? found->second : labels.emplace(text, lettering.label(text, 1.0)).first->second;
+    }
 
     void use(const Ink& ink) const { cairo_set_source_rgba(pen.get(), ink.r, ink.g, ink.b, ink.opacity); }
     void use(Face face, double size) const {
@@ -76,11 +95,13 @@ struct Paper::Impl {
         cairo_glyph_free(glyphs);
         return all;
     }
-    void fill(const planner::Region& region, const Vec2& at) const {
+    void fill(const planner::Region& region, const Vec2& at, double scale) const {
         cairo_new_path(pen.get());
         for (const planner::Contour& contour : region.contours) {
-            for (std::size_t i = 0; i < contour.size(); ++i)
-                (i == 0 ? cairo_move_to : cairo_line_to)(pen.get(), at.x + contour[i].x, at.y + contour[i].y);
+            for (std::size_t i = 0; i < contour.size(); ++i) {
+                const Vec2 p = at + scale * contour[i];
+                (i == 0 ? cairo_move_to : cairo_line_to)(pen.get(), p.x, p.y);
+            }
             cairo_close_path(pen.get());
         }
         cairo_fill(pen.get());
@@ -100,7 +121,7 @@ Result<Paper> Paper::blank(const std::string& title) {
     impl->surface.reset(cairo_pdf_surface_create_for_stream(append, &impl->bytes, kPaperWidth, kPaperHeight));
     cairo_surface_t* surface = impl->surface.get();
     cairo_pdf_surface_restrict_to_version(surface, CAIRO_PDF_VERSION_1_5);
-    cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_TITLE, title.c_str());
+    cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_TITLE, valid(title).c_str());
     cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE, nullptr);
     cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_MOD_DATE, nullptr);
     impl->pen.reset(cairo_create(surface));
@@ -111,7 +132,7 @@ double Paper::width(std::string_view utf8, Face face, double size) const {
     if (utf8.empty()) return 0.0;
     const std::string text(utf8);
     impl_->use(face, size);
-    if (!impl_->draws(text)) return impl_->lettering.label(text, size).width;
+    if (!impl_->draws(text)) return size * impl_->label(text).width;
     cairo_text_extents_t extents;
     cairo_text_extents(impl_->pen.get(), text.c_str(), &extents);
     return extents.x_advance;
@@ -122,7 +143,7 @@ void Paper::text(std::string_view utf8, const Vec2& at, Face face, double size, 
     const std::string text(utf8);
     impl_->use(face, size);
     impl_->use(ink);
-    if (!impl_->draws(text)) return impl_->fill(impl_->lettering.label(text, size).outlines, at);
+    if (!impl_->draws(text)) return impl_->fill(impl_->label(text).outlines, at, size);
     cairo_move_to(impl_->pen.get(), at.x, at.y);
     cairo_show_text(impl_->pen.get(), text.c_str());
 }
