@@ -9,6 +9,7 @@
 #include "export/exact/show_hash.hpp"
 #include "export/exact/trajectories_bin.hpp"
 #include "export/export_jobs.hpp"
+#include "export/export_papers.hpp"
 #include "export/manifest_json.hpp"
 #include "export/outgoing/planned_show.hpp"
 #include "export/outgoing/program.hpp"
@@ -22,12 +23,6 @@ namespace fs = std::filesystem;
 Error invalid(std::string message) {
     return {ErrorCode::invalid_input, std::move(message)};
 }
-
-/// Files of one kind of paper, as the manifest calls it.
-struct Paper {
-    std::string name;
-    std::vector<FileBytes> files;
-};
 
 /// A file that belongs to no format.
 ManifestFile listed(const std::string& name, const FileBytes& file) {
@@ -82,6 +77,33 @@ Status check_replaceable(const fs::path& destination) {
     return Done{};
 }
 
+bool wanted(const ExportOptions& options, std::string_view paper) {
+    return options.formats.empty() || std::ranges::find(options.formats, paper) != options.formats.end();
+}
+
+/// Certificate, report and pad sheet. The report is of the whole show's exact trajectories, so a part of a fleet has
+/// none.
+Result<std::vector<Paper>> papers_of(const planner::FlightPlan& plan, const OutgoingShow& show, const Seal& seal,
+                                     const std::vector<ExportJob>& jobs, const ExportOptions& options, const Run& run) {
+    std::vector<Paper> papers;
+    const std::string certificate = certificate_json(plan, seal.show_hash, seal.certified);
+    papers.push_back({"certificate", {{std::string(kCertificateName), certificate}}});
+    if (!wanted(options, "report") || show.whole_plan() == nullptr) return papers;
+    run.report("report", 0.0);
+    std::vector<ExportedFormat> formats;
+    for (const ExportJob& job : jobs) formats.push_back(job.exported);
+    const auto exact = std::ranges::find(formats, "trajectories", &ExportedFormat::name);
+    const auto judgement =
+        exact != formats.end() ? Result<Judgement>(exact->judgement) : judged_exactly(plan, seal, run);
+    if (!judgement) return judgement.error();
+    std::vector<std::string> reasons = reasons_of(plan);
+    for (std::string& line : complaints(jobs)) reasons.push_back(std::move(line));
+    auto report = report_paper(show, *judgement, seal, formats, std::move(reasons), run);
+    if (!report) return report.error();
+    papers.push_back(std::move(*report));
+    return papers;
+}
+
 /// Papers and manifest, the manifest last; then the swap.
 Status seal_folder(StagedFolder& folder, const std::vector<ExportJob>& jobs, const OutgoingShow& show, const Seal& seal,
                    const std::vector<Paper>& papers, const Run& run) {
@@ -99,10 +121,16 @@ Status seal_folder(StagedFolder& folder, const std::vector<ExportJob>& jobs, con
     return done;
 }
 
-Error refused(const std::string& why, const std::vector<std::string>& lines) {
+/// The refusal, with a report beside where the show would have gone.
+Error refused(const planner::FlightPlan& plan, const fs::path& destination, const std::string& why,
+              const std::vector<std::string>& lines, const Run& run) {
+    std::vector<std::string> reasons = reasons_of(plan);
+    reasons.insert(reasons.end(), lines.begin(), lines.end());
+    const Status told = write_refused_report(plan, destination, reasons, run);
+    if (!told) return told.error();
     std::string message = why;
     for (const std::string& line : lines) message += "\n" + line;
-    return {ErrorCode::infeasible, message};
+    return {ErrorCode::infeasible, message + "\nreport: " + (refused_folder(destination) / "report.html").string()};
 }
 
 }  // namespace
@@ -115,7 +143,8 @@ Result<ExportedShow> export_show(const planner::FlightPlan& plan, const fs::path
     Result<std::vector<ExportJob>> jobs = chosen_jobs(show, options.formats, run);
     if (!jobs) return jobs.error();
     Seal seal{show_hash(plan), plan.certificate.certified()};
-    if (!seal.certified && !options.best_effort) return refused("the plan is not certified", {});
+    if (!seal.certified && !options.best_effort)
+        return refused(plan, destination, "the plan is not certified", {}, run);
     if (const Status replaceable = check_replaceable(destination); !replaceable) return replaceable.error();
     Result<StagedFolder> folder = StagedFolder::beside(destination);
     if (!folder) return folder.error();
@@ -124,15 +153,16 @@ Result<ExportedShow> export_show(const planner::FlightPlan& plan, const fs::path
     if (seal.certified) leave_out_broken_waypoints(*jobs, options.formats, folder->path());
     const std::vector<std::string> wrong = complaints(*jobs);
     if (!wrong.empty() && !options.best_effort)
-        return refused("the written files break limits that the plan holds:", wrong);
+        return refused(plan, destination, "the written files break limits that the plan holds:", wrong, run);
     if (!wrong.empty() && seal.certified) {  // the files must say so: write them again
         seal.certified = false;
         if (const auto error = write_and_check(*jobs, show, seal, folder->path(), run)) return *error;
     }
-    const std::vector<Paper> papers{
-        {"certificate", {{std::string(kCertificateName), certificate_json(plan, seal.show_hash, seal.certified)}}}};
-    const Status sealed = seal_folder(*folder, *jobs, show, seal, papers, run);
+    const auto papers = papers_of(plan, show, seal, *jobs, options, run);
+    if (!papers) return papers.error();
+    const Status sealed = seal_folder(*folder, *jobs, show, seal, *papers, run);
     if (!sealed) return sealed.error();
+    remove_refused_report(destination);
     ExportedShow result{seal.show_hash, seal.certified, {}};
     for (ExportJob& job : *jobs) result.formats.push_back(std::move(job.exported));
     return result;

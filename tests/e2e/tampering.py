@@ -23,12 +23,11 @@ assert run("verify", show).returncode == 0
 picked = [p for p in originals if "drone-" not in p] + rng.sample([p for p in originals if "drone-" in p], 4)
 for path in picked:
     original = originals[path]
-    for _ in range(3):
-        place = rng.randrange(len(original))
-        altered = bytearray(original)
-        altered[place] ^= 1 << rng.randrange(8)
-        (show / path).write_bytes(altered)
-        must_name(path, f"byte {place} altered")
+    place = rng.randrange(len(original))  # tampering_test.cpp does this 500 times for each file
+    altered = bytearray(original)
+    altered[place] ^= 1 << rng.randrange(8)
+    (show / path).write_bytes(altered)
+    must_name(path, f"byte {place} altered")
     (show / path).write_bytes(original[:-1])
     must_name(path, "last byte missing")
     (show / path).write_bytes(original + b"\n")
