@@ -34,7 +34,7 @@ std::vector<Millis> stops(const Flight& flight, std::span<const Millis> given_ms
             times.push_back(std::llround(flight.pieces[k].start_s * 1000.0));
     }
     std::ranges::sort(times);
-    times.erase(std::ranges::unique(times).begin(), times.end());
+    times.erase(std::unique(times.begin(), times.end()), times.end());
     std::erase_if(times, [&](Millis t) { return t < 0 || t > given_ms.back(); });
     return times;
 }

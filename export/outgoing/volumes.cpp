@@ -14,6 +14,8 @@ namespace {
 constexpr double kGravity_mps2 = 9.80665;
 /// How far a curve's control polygon may be outside of places that were flown; below the millimetre that is promised.
 constexpr double kMiss_m = 0.0005;
+/// Corners that stand out no more than this are left out; together with kMiss_m below the millimetre too.
+constexpr double kFlat_m = 0.0003;
 /// Half the width that a fleet gets which flies above one line or one point.
 constexpr double kThin_m = 0.005;
 /// Corners are rounded by tangents so close that these are at most 1 % farther away than the arc.
@@ -28,7 +30,7 @@ double cross(const Vec2& a, const Vec2& b) {
 /// where all lie on a line.
 geo::Polygon hull_of(std::vector<Vec2> points) {
     std::ranges::sort(points, [](const Vec2& a, const Vec2& b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
-    points.erase(std::ranges::unique(points).begin(), points.end());
+    points.erase(std::unique(points.begin(), points.end()), points.end());
     if (points.size() < 3) return points;
     geo::Polygon hull;
     const auto append = [&](const Vec2& p, std::size_t keep) {
@@ -135,6 +137,26 @@ Reach reach_of(const OutgoingShow& show, const Run& run) {
     return united(parts);
 }
 
+/// A convex polygon without the corners that hardly stand out: those between two that stay are within kFlat_m of the
+/// line between these. One or two points of what is as good as a line.
+geo::Polygon plain(const geo::Polygon& convex) {
+    constexpr std::size_t kMostSkipped = 64;
+    const std::size_t n = convex.size();
+    geo::Polygon kept;
+    for (std::size_t at = 0; at < n;) {
+        kept.push_back(convex[at]);
+        std::size_t next = at + 1;
+        const auto passes = [&](std::size_t to) {
+            for (std::size_t k = at + 1; k < to; ++k)
+                if (distance_to_segment(convex[at], convex[to % n], convex[k]) > kFlat_m) return false;
+            return true;
+        };
+        while (next < n && next - at < kMostSkipped && passes(next + 1)) ++next;
+        at = next;
+    }
+    return kept;
+}
+
 /// A hull that is as good as a line gets kThin_m of width.
 geo::Polygon with_area(geo::Polygon hull) {
     double area_m2 = 0.0;
@@ -184,7 +206,7 @@ FlightVolumes flight_volumes(const OutgoingShow& show, const Run& run) {
     volumes.flight_height_m = reach.height_m;
     volumes.contingency_height_m = reach.height_m + volumes.contingency_m_wide;
     volumes.ground_risk_m_wide = std::max(0.0, volumes.contingency_height_m);
-    volumes.flight_m = with_area(reach.over);
+    volumes.flight_m = with_area(plain(reach.over));
     volumes.contingency_m = widened(volumes.flight_m, volumes.contingency_m_wide);
     volumes.ground_risk_m = widened(volumes.contingency_m, volumes.ground_risk_m_wide);
     return volumes;
