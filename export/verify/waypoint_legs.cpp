@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <utility>
 
 namespace aerogram::exporter {
 namespace {
@@ -92,34 +94,35 @@ Finding leaving_times(const FleetWaits& fleet) {
     return finding;
 }
 
-/// The fleet at its waits, one pseudo-second each.
-RecordedShow standing(const RecordedShow& legs, const FleetWaits& fleet, std::size_t moments) {
-    RecordedShow show;
-    show.format = legs.format;
-    show.rounding = legs.rounding;
-    show.duration_s = static_cast<double>(moments);
-    for (std::size_t d = 0; d < fleet.size(); ++d) {
-        RecordedDrone& drone = show.drones.emplace_back();
-        drone.home_m = legs.drones[d].home_m;
-        drone.land_m = legs.drones[d].land_m;
-        for (std::size_t k = 0; k < moments; ++k) {
-            drone.pieces.push_back({static_cast<double>(k), 1.0, static_cast<std::uint32_t>(k), 0});
-            drone.controls_m.push_back(fleet[d][k].place_m);
+/// The two closest of a fleet that stands.
+struct Closest {
+    double apart_m = std::numeric_limits<double>::infinity();
+    std::size_t first = 0, second = 0, moment = 0;
+};
+
+/// Makes `closest` the closest pair of the fleet at its k-th wait where that is closer; a sweep along the widest axis.
+void look_at(const FleetWaits& fleet, std::size_t k, double downwash, Closest& closest) {
+    Points places;
+    Vec3 low{1e300, 1e300, 1e300}, high = -low;
+    for (const std::vector<Wait>& waits : fleet) {
+        const Vec3& p = waits[k].place_m;
+        places.push_back({p.x, p.y, p.z / downwash});
+        low = glm::min(low, places.back());
+        high = glm::max(high, places.back());
+    }
+    const Vec3 wide = high - low;
+    const int axis = wide.x >= wide.y && wide.x >= wide.z ? 0 : wide.y >= wide.z ? 1 : 2;
+    std::vector<std::size_t> order(places.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::sort(order, {}, [&](std::size_t d) { return std::pair(places[d][axis], d); });
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        for (std::size_t j = i + 1; j < order.size(); ++j) {
+            const Vec3 way = places[order[j]] - places[order[i]];
+            if (way[axis] >= closest.apart_m) break;
+            if (const double apart_m = glm::length(way); apart_m < closest.apart_m)
+                closest = {apart_m, std::min(order[i], order[j]), std::max(order[i], order[j]), k};
         }
     }
-    return show;
-}
-
-/// Which of the two moments that meet at a pseudo-time is the closer one for a pair.
-std::size_t moment_of(const VerifiedSeparation& found, const FleetWaits& fleet, double downwash) {
-    const std::vector<Wait>&a = fleet[found.first], &b = fleet[found.second];
-    const auto apart_m = [&](std::size_t k) {
-        const Vec3 way = a[k].place_m - b[k].place_m;
-        return glm::length(Vec3{way.x, way.y, way.z / downwash});
-    };
-    const std::size_t last = std::min(a.size(), b.size()) - 1;
-    const std::size_t later = std::min(last, static_cast<std::size_t>(std::max(0.0, found.time_s)));
-    return later > 0 && apart_m(later - 1) < apart_m(later) ? later - 1 : later;
 }
 
 }  // namespace
@@ -133,16 +136,16 @@ Result<std::vector<Finding>> standing_findings(const RecordedShow& untimed, cons
         moments = std::min(moments, fleet.back().size());
     }
     if (fleet.size() < 2 || moments == 0) return std::vector<Finding>{};
-    const double limit_m = rules.limits.min_separation_m;
-    const auto found = verify_separation(standing(legs, fleet, moments), rules.limits.downwash, 2.0 * limit_m, run,
-                                         {.resolved_m = 0.5 * kNumeric});
-    if (!found) return found.error();
-    Finding separation{
-        "separation_standing", limit_m, found->lower_bound_m, 0.0, {}, {}, found->lower_bound_m >= limit_m - kNumeric};
-    if (found->attained_m <= 2.0 * limit_m) {
-        separation.drones = {std::min(found->first, found->second) + 1, std::max(found->first, found->second) + 1};
-        separation.time_s = fleet[found->first][moment_of(*found, fleet, rules.limits.downwash)].until_s;
+    Closest closest;
+    for (std::size_t k = 0; k < moments; ++k) {
+        if (run.stopped()) return stopped_error();
+        look_at(fleet, k, rules.limits.downwash, closest);
     }
+    const double limit_m = rules.limits.min_separation_m;
+    Finding separation{
+        "separation_standing", limit_m, closest.apart_m, 0.0, {}, {}, closest.apart_m >= limit_m - kNumeric};
+    separation.drones = {closest.first + 1, closest.second + 1};
+    separation.time_s = fleet[closest.first][closest.moment].until_s;
     return std::vector<Finding>{leaving_times(fleet), std::move(separation)};
 }
 

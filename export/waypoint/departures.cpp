@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include "geo/units.hpp"
 
@@ -56,11 +58,28 @@ std::string too_slow(const OutgoingFacts& facts, const Stops& stops, const Depar
     return why;
 }
 
+/// The smallest distance of two pads in plan view where it is below least_m; a sweep along x.
+std::optional<double> pads_closer_than(double least_m, const OutgoingFacts& facts) {
+    std::vector<Vec2> pads;
+    for (const OutgoingDrone& drone : facts.drones) pads.emplace_back(drone.home_m);
+    std::ranges::sort(pads, {}, [](const Vec2& p) { return std::pair(p.x, p.y); });
+    std::optional<double> closest_m;
+    for (std::size_t i = 0; i < pads.size(); ++i)
+        for (std::size_t j = i + 1; j < pads.size() && pads[j].x - pads[i].x < least_m; ++j)
+            if (const double apart_m = glm::length(pads[j] - pads[i]); apart_m < closest_m.value_or(least_m))
+                closest_m = apart_m;
+    return closest_m;
+}
+
 std::string unsound(const OutgoingFacts& facts, const Stops& stops) {
     const auto& start = facts.exporting.start_utc_s;
     if (!start) return "timing = absolute needs start_utc or --start-utc";
     if (*start < kDay_s || *start > kLastUtc_s - kDay_s) return "start_utc must be a day inside of 1970 to 9999";
     if (facts.duration_ms > kLongest_s * 1000) return "longer than twelve hours: times of day would not tell when";
+    if (const auto apart_m = pads_closer_than(facts.limits.min_separation_m - kMayDrift_m, facts))
+        return format(
+            "pads are %.2f m apart: the plan staggers its take-offs, missions that wait for times climb at once",
+            *apart_m);
     for (std::size_t k = 0; k < stops.count(); ++k) {
         if (stops.drifts_m[k] > kMayDrift_m)
             return "\"" + stops.names[k] + "\" moves while it is shown; vehicles that wait for a time stand";

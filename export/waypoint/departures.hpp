@@ -39,8 +39,9 @@ inline constexpr std::int64_t kStartWindow_s = 30;
 /// Properties: (1) from leaving one stop, every drone needs at most (leave_s[k] - leave_s[k - 1]) - slack_s by
 /// leg_needs_s until it may leave the next (2) one second less at any refused leg's stop is refused too.
 /// Errors: invalid_input when there is no start, the show takes longer than twelve hours or, with the later return,
-/// than the endurance, a formation moves while it stands, or a leg has too little time: names the leg with the least
-/// slack, its drone, what it needs, what is there, and what would do.
+/// than the endurance, pads are closer than the minimum separation (all climb at once), a formation moves while it
+/// stands, or a leg has too little time: names the leg with the least slack, its drone, what it needs, what is there,
+/// and what would do.
 Result<Departures> departures(const OutgoingFacts& facts, const Stops& stops);
 
 }  // namespace aerogram::exporter

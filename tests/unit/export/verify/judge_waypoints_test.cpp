@@ -6,6 +6,7 @@
 #include "export/verify/judge.hpp"
 #include "geo/show_frame.hpp"
 #include "tests/unit/export/verify/judged.hpp"
+#include "tests/unit/export/verify/shows.hpp"
 
 namespace aerogram::exporter {
 namespace {
@@ -93,6 +94,39 @@ TEST(JudgeWaypoints, ThatWaitForTimesAreJudgedWhereTheyStand) {
     const Judgement far = judged(two_that_wait(2.9, {8.0, 30.0}, {8.0, 30.0}));
     EXPECT_TRUE(far.held());
     EXPECT_NEAR(finding(far, "separation_standing").worst, 2.9, 1e-3);
+}
+
+/// Against all pairs at all moments, in walls, lines and clouds, downwash in.
+TEST(JudgeWaypoints, TheStandingFleetsClosestPairIsThatOfBruteForce) {
+    testing::Random random(99);
+    for (int n = 0; n < 60; ++n) {
+        const Limits limits{.downwash = random.in(1.0, 3.0)};
+        const Vec3 box{n % 3 == 0 ? 0.0 : 40.0, n % 3 == 1 ? 0.0 : 60.0, n % 4 == 0 ? 0.0 : 30.0};
+        RecordedShow show = mission(10.0);
+        const geo::ShowFrame frame(*show.origin);
+        const RecordedDrone one = show.drones[0];
+        show.drones.clear();
+        double least_m = 1e9;
+        std::vector<Points> places(3);
+        for (std::size_t d = 0; d < 25; ++d) {
+            RecordedDrone drone = one;
+            drone.waypoints.clear();
+            for (std::size_t k = 0; k < 3; ++k) {
+                const Vec3 p = Vec3{0, 0, 10} + random.in_box({}, box);
+                for (const Vec3& q : places[k])
+                    least_m = std::min(least_m, glm::length((p - q) / Vec3{1, 1, limits.downwash}));
+                places[k].push_back(p);
+                drone.waypoints.push_back({frame.to_geodetic(p),
+                                           frame.altitude_above({}, p),
+                                           1.0,
+                                           Waypoint::Kind::fly_to,
+                                           10.0 * static_cast<double>(k),
+                                           {}});
+            }
+            show.drones.push_back(drone);
+        }
+        EXPECT_NEAR(finding(judged(show, testing::limits(limits)), "separation_standing").worst, least_m, 1e-6) << n;
+    }
 }
 
 TEST(JudgeWaypoints, ThatLeaveAtOtherTimesAreFound) {

@@ -88,6 +88,14 @@ TEST(Departures, StopAtAFlowsKeyframesOnlyWithTimeToDoSo) {
     EXPECT_THAT(refusal(plan), HasSubstr("moves while it is shown"));  // the lattice of this test ends elsewhere
 }
 
+/// They would climb side by side.
+TEST(Departures, RefusePadsThatThePlanStaggers) {
+    planner::FlightPlan plan = plan_at(kStart);
+    plan.pads_m[1] = {0.6, -20.8, 0.0};
+    EXPECT_EQ(refusal(plan),
+              "pads are 1.00 m apart: the plan staggers its take-offs, missions that wait for times climb at once");
+}
+
 TEST(Departures, RefuseAFormationThatMovesWhileItIsShown) {
     planner::FlightPlan plan = plan_at(kStart);
     plan.keyframes[0].stands_to_ms += 4'000;

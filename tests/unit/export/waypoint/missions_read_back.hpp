@@ -82,7 +82,7 @@ inline void expect_standing_is_judged(const RecordedShow& show) {
     for (const Points& places : {fixed::above_pads(), fixed::formation_a(), fixed::formation_b()})
         for (std::size_t i = 0; i < 3; ++i)
             for (std::size_t j = 0; j < i; ++j) least_m = std::min(least_m, glm::length(places[i] - places[j]));
-    EXPECT_NEAR(standing_m, std::min(least_m, 3.0), 0.005);
+    EXPECT_NEAR(standing_m, least_m, 0.005);
 }
 
 }  // namespace aerogram::exporter

@@ -146,6 +146,10 @@ TEST(Waypoints, DamagedInputIsRefusedNotCrashedOn) {
     std::size_t refused = 0;
     for_damaged(text, 2'000, [&](const std::string& damaged) { refused += read(damaged).ok() ? 0u : 1u; });
     EXPECT_GT(refused, 500u);
+    const std::string timed = written_files(waypoints_format(), timed_show(planner::WaypointTiming::absolute))[0].bytes;
+    refused = 0;
+    for_damaged(timed, 2'000, [&](const std::string& damaged) { refused += read(damaged).ok() ? 0u : 1u; });
+    EXPECT_GT(refused, 500u);
 }
 
 }  // namespace
