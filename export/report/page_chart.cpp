@@ -8,7 +8,8 @@
 namespace aerogram::exporter {
 namespace {
 
-constexpr double kHeight = 172.0, kPlotLeft = 34.0, kPlotTop = 28.0, kPlotBottom = 20.0, kSmall = 6.4;
+constexpr double kHeight = 172.0, kPlotLeft = 34.0, kCountsLeft = 50.0, kPlotTop = 28.0, kPlotBottom = 20.0,
+                 kSmall = 6.4;
 constexpr Ink kBand{0.93, 0.94, 0.955}, kGrid{0.88, 0.90, 0.92}, kBar{0.20, 0.40, 0.64};
 constexpr std::size_t kMostPoints = 4000;  ///< of a line on paper
 
@@ -30,8 +31,8 @@ std::pair<Axis, Axis> axes_of(const Chart& chart, double top) {
     for (const ChartLimit& limit : chart.limits) take(limit.value);
     if (high <= low) high = low + 1.0;
     const double above = 0.07 * (high - low), end = chart.x.empty() ? 1.0 : chart.x.back();
-    Axis x{chart.x.empty() ? 0.0 : chart.x.front(), chart.bars ? end + width_of_bar(chart) : end, kEdge + kPlotLeft,
-           kPaperWidth - kEdge};
+    Axis x{chart.x.empty() ? 0.0 : chart.x.front(), chart.bars ? end + width_of_bar(chart) : end,
+           kEdge + (chart.bars ? kCountsLeft : kPlotLeft), kPaperWidth - kEdge};
     if (x.high <= x.low) x.high = x.low + 1.0;
     return {x, {low < 0.0 ? low - above : 0.0, high + above, top + kHeight - kPlotBottom, top + kPlotTop}};
 }
