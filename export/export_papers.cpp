@@ -51,6 +51,13 @@ Result<Paper> report_paper(const OutgoingShow& show, const Judgement& judgement,
     return paper;
 }
 
+Result<Paper> pads_paper(const OutgoingShow& show, const Seal& seal) {
+    const PadSheet sheet = pad_sheet(show.facts(), seal.show_hash);
+    auto pdf = pads_pdf(sheet);
+    if (!pdf) return pdf.error();
+    return Paper{"pads", {{"pads.csv", pads_csv(sheet)}, {"pads.pdf", std::move(*pdf)}}};
+}
+
 std::vector<std::string> reasons_of(const planner::FlightPlan& plan) {
     std::vector<std::string> reasons = plan.certificate.violations;
     for (const planner::ActCertificate& act : plan.certificate.acts)

@@ -22,6 +22,9 @@ struct Paper {
 Result<Paper> report_paper(const OutgoingShow& show, const Judgement& judgement, const Seal& seal,
                            const std::vector<ExportedFormat>& formats, std::vector<std::string> reasons,
                            const Run& run);
+/// pads.csv and pads.pdf. Errors: io.
+Result<Paper> pads_paper(const OutgoingShow& show, const Seal& seal);
+
 /// Why a plan is not certified, a line each; none: it is.
 [[nodiscard]] std::vector<std::string> reasons_of(const planner::FlightPlan& plan);
 

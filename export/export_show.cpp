@@ -88,6 +88,11 @@ Result<std::vector<Paper>> papers_of(const planner::FlightPlan& plan, const Outg
     std::vector<Paper> papers;
     const std::string certificate = certificate_json(plan, seal.show_hash, seal.certified);
     papers.push_back({"certificate", {{std::string(kCertificateName), certificate}}});
+    if (wanted(options, "pads")) {
+        auto pads = pads_paper(show, seal);
+        if (!pads) return pads.error();
+        papers.push_back(std::move(*pads));
+    }
     if (!wanted(options, "report") || show.whole_plan() == nullptr) return papers;
     run.report("report", 0.0);
     std::vector<ExportedFormat> formats;

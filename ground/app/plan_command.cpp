@@ -3,6 +3,7 @@
 #include <limits>
 #include <sstream>
 
+#include "export/export_papers.hpp"
 #include "export/export_show.hpp"
 #include "geo/units.hpp"
 #include "ground/app/answers.hpp"
@@ -110,10 +111,10 @@ std::string summary(const FlightPlan& plan, const exporter::ExportedShow& shown,
     text << "formats       " << written << "\n" << skipped;
     text << "show hash      " << shown.show_hash << "\n";
     text << "written to     " << out.string() << "\n";
-    for (const auto& format : shown.formats) {
-        if (format.name == "preview" && format.skipped.empty()) {
-            text << "look at        " << (out / "preview.html").string() << "  (any browser, no network needed)\n";
-        }
+    for (const char* page : {"preview.html", "report.html"}) {
+        std::error_code failure;
+        if (std::filesystem::exists(out / page, failure))
+            text << "look at        " << (out / page).string() << "  (any browser, no network needed)\n";
     }
     return text.str();
 }
@@ -153,11 +154,25 @@ Result<std::vector<planner::Replacement>> replacements_of(const PlanCommand& com
     return replacements;
 }
 
-/// The certified plan, or with --best-effort any; with spare drones in the place of others.
+/// Why a plan cannot be flown, and where its report is.
+Error refusal_of(const planner::Mission& mission, const FlightPlan& plan, const std::filesystem::path& out,
+                 const Run& run) {
+    Error refusal = planner::refusal(mission, plan.certificate);
+    const Status told = exporter::write_refused_report(plan, out, exporter::reasons_of(plan), run);
+    if (!told) return told.error();
+    refusal.message += "\n  report: " + (exporter::refused_folder(out) / "report.html").string();
+    return refusal;
+}
+
+/// The certified plan, or with --best-effort any; with spare drones in the place of others. Of a plan that is refused
+/// a report is left beside `out`.
 Result<FlightPlan> plan_of(const planner::Mission& mission, const PlanCommand& command,
-                           const std::vector<planner::Replacement>& replacements, const Run& run) {
-    auto plan = planner::plan(mission, {command.best_effort}, run);
-    if (!plan || replacements.empty()) return plan;
+                           const std::vector<planner::Replacement>& replacements, const std::filesystem::path& out,
+                           const Run& run) {
+    auto plan = planner::plan(mission, {.best_effort = true}, run);
+    if (!plan) return plan;
+    if (!plan->certificate.certified() && !command.best_effort) return refusal_of(mission, *plan, out, run);
+    if (replacements.empty()) return plan;
     auto changed = planner::replaced(std::move(*plan), replacements, run);
     if (!changed && changed.error().code != ErrorCode::stopped)
         return Error{changed.error().code, "--replace " + changed.error().message};
@@ -174,7 +189,7 @@ int run_plan(const PlanCommand& command, const Session& session) {
     if (!drones) return report_error(drones.error(), session);
     const auto replacements = replacements_of(command);
     if (!replacements) return report_error(replacements.error(), session);
-    const auto plan = plan_of(*mission, command, *replacements, session.run);
+    const auto plan = plan_of(*mission, command, *replacements, out, session.run);
     if (!plan) return report_error(plan.error(), session);
     const auto shown = exporter::export_show(
         *plan, out, {.formats = command.formats, .best_effort = command.best_effort, .drones = *drones}, session.run);
