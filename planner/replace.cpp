@@ -102,7 +102,8 @@ Result<Change> change_of(const FlightPlan& plan, const Transits& transits, std::
         if (flown_alike && off_m.z == 0.0) continue;
         Act act = plan.acts[a];
         if (!flown_alike)
-            shift(act.motion, drone, a <= transits.first ? off_m : Vec3{}, a >= transits.last ? off_m : Vec3{});
+            shift(act.motion, drone, a <= transits.first || a > transits.last ? off_m : Vec3{},
+                  a < transits.first || a >= transits.last ? off_m : Vec3{});
         if (run.stopped()) return stopped_error();
         const ActCertificate* before = a < plan.certificate.acts.size() ? &plan.certificate.acts[a] : nullptr;
         auto certificate = certify(act, surroundings, run, before != nullptr ? before->required_separation_m : 0.0);
