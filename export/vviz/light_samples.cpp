@@ -5,7 +5,7 @@
 namespace aerogram::exporter {
 namespace {
 
-constexpr std::int64_t kLongestStep = 10;
+constexpr std::int64_t kFadeStep = 10, kMostSteps = 32;
 
 Rgb mixed(const Rgb& a, const Rgb& b, double u) {
     return {a.r + u * (b.r - a.r), a.g + u * (b.g - a.g), a.b + u * (b.b - a.b)};
@@ -47,7 +47,7 @@ std::vector<LightSample> light_samples(std::span<const LightKey> keys, Millis fr
             if (to - 1 > from) samples.add(to - 1, keys[k].color);
             continue;
         }
-        const std::int64_t steps = (to - from + kLongestStep - 1) / kLongestStep;
+        const std::int64_t steps = std::min(kMostSteps, (to - from + kFadeStep - 1) / kFadeStep);
         for (std::int64_t step = 1; step < steps; ++step) {
             const std::int64_t frame = from + (to - from) * step / steps;
             const double u = static_cast<double>(frame - from) / static_cast<double>(to - from);

@@ -15,7 +15,7 @@ struct LightSample {
 };
 
 /// A lamp's track as samples at frames, for readers that hold a sample's colour until the next, and for those that fade
-/// to it alike: a colour that stays has a sample at its last frame as well, a fade one at least every ten frames.
+/// to it alike: a colour that stays has a sample at its last frame as well, a fade one every ten frames or 32 in all.
 /// Properties: (1) the first sample is at frame 0; frames rise (2) for readers that fade, every colour is within 0.5 /
 /// 255 of the track, except in the frame before a jump; keys between frames count at the nearest (3) no sample lies on
 /// the line between its neighbours where that line is level.

@@ -30,6 +30,7 @@ void append_thousandths(std::string& out, std::int64_t units) {
 
 struct Millimetres {
     std::int64_t x = 0, y = 0, z = 0;
+    bool operator==(const Millimetres&) const = default;
 };
 Millimetres rounded(const Vec3& p) {
     return {in_units(p.x, 3), in_units(p.y, 3), in_units(p.z, 3)};
@@ -89,18 +90,35 @@ std::vector<Corner> corners_of(const OutgoingShow& show, std::size_t drone, cons
     return corners;
 }
 
+/// A place that the drone's own path does not tell.
+void append_place(std::string& out, std::string_view key, const Millimetres& place, const Millimetres& told) {
+    if (place == told) return;
+    out.append(",\"").append(key).append("\":[");
+    append_thousandths(out, place.x);
+    out += ',';
+    append_thousandths(out, place.y);
+    out += ',';
+    append_thousandths(out, place.z);
+    out += ']';
+}
+
 void append_performance(std::string& out, const OutgoingShow& show, std::size_t drone, const Layout& layout) {
     const std::vector<Corner> corners = corners_of(show, drone, layout);
     const Tracks& tracks = show.tracks(drone);
-    const Millimetres home = rounded(to_vviz(corners[0].place_m, layout.flavour));
+    const OutgoingDrone& facts = show.facts().drones[drone];
+    const auto place = [&](const Vec3& p) { return rounded(to_vviz(p, layout.flavour)); };
+    const Millimetres start = place(corners.front().place_m);
     out += "{\"id\":";
     append_units(out, static_cast<std::int64_t>(drone), 0);
-    out += ",\"name\":" + json_text(show.facts().drones[drone].name) + ",\"agentDescription\":{\"homeX\":";
-    append_thousandths(out, home.x);
+    out += ",\"name\":" + json_text(facts.name);
+    append_place(out, "home", place(facts.home_m), start);
+    append_place(out, "land", place(facts.land_m), place(corners.back().place_m));
+    out += ",\"agentDescription\":{\"homeX\":";
+    append_thousandths(out, start.x);
     out += ",\"homeY\":";
-    append_thousandths(out, home.y);
+    append_thousandths(out, start.y);
     out += ",\"homeZ\":";
-    append_thousandths(out, home.z);
+    append_thousandths(out, start.z);
     out += ",\"homeH\":";
     append_thousandths(out, in_units(-degrees(yaw_at(tracks.yaw, 0.0)), 3));
     out += ",\"airframe\":\"generic\",\"agentTraversal\":[";
@@ -188,14 +206,10 @@ bool recognises(std::string_view path, std::string_view first_bytes) {
 }
 
 constexpr Format kVviz{
-    "vviz",
-    "VVIZ for Verge Aero, Finale 3D, Depence and FWsim: JSON of steps and colours",
-    "linear",
-    "yaw but the first heading, payload events, landing places; a colour that jumps fades in the 20 ms before",
-    write,
-    read_vviz,
-    recognises,
-    unsuited};
+    "vviz",     "VVIZ for Verge Aero, Finale 3D, Depence and FWsim: JSON of steps and colours",
+    "linear",   "yaw but the first heading, payload events; a colour that jumps fades in the 20 ms before",
+    write,      read_vviz,
+    recognises, unsuited};
 
 }  // namespace
 

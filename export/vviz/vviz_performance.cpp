@@ -46,7 +46,8 @@ void KeysOnce::check(std::string_view key, JsonCursor& cursor) {
 }
 
 void VvizPerformances::read(RecordedDrone& drone) {
-    static constexpr std::array<std::string_view, 4> kKeys{"agentDescription", "payloadDescription", "name", "id"};
+    static constexpr std::array<std::string_view, 5> kKeys{"agentDescription", "payloadDescription", "name", "home",
+                                                           "land"};
     Seen seen(kKeys);
     pieces_.clear();
     lights_.clear();
@@ -60,6 +61,12 @@ void VvizPerformances::read(RecordedDrone& drone) {
                 return cursor_.array([&] { payload(drone); });
             case 2:
                 drone.name = cursor_.text(kLongestName);
+                return;
+            case 3:
+                drone.home_m = place();
+                return;
+            case 4:
+                drone.land_m = place();
                 return;
             default:
                 cursor_.skipped();
@@ -90,6 +97,18 @@ void VvizPerformances::agent(RecordedDrone& drone) {
     if (heading_deg != 0.0) drone.tracks.yaw.push_back({0, -radians(heading_deg)});
     for (Vec3& p : controls_m_) p += Vec3(home[0], home[1], home[2]);
     drone.controls_m = controls_m_;
+}
+
+Vec3 VvizPerformances::place() {
+    Vec3 p{};
+    int count = 0;
+    cursor_.array([&] {
+        const double value = cursor_.number(-kFarthest_m, kFarthest_m);
+        if (count < 3) p[count] = value;
+        ++count;
+    });
+    if (count != 3) cursor_.fail("a place must be [x, y, z]");
+    return p;
 }
 
 void VvizPerformances::sample() {

@@ -27,13 +27,15 @@ class VvizPerformances {
   public:
     VvizPerformances(const VvizRates& rates, JsonCursor& cursor) : rates_(rates), cursor_(cursor) {}
 
-    /// A drone without samples gets its home as its only control point, and no piece.
+    /// A drone without samples gets where it starts as its only control point, and no piece. Home and landing place:
+    /// where our keys state them.
     void read(RecordedDrone& drone);
     /// Of all samples that moved a drone, at most 1 s.
     [[nodiscard]] double shortest_step_s() const { return shortest_s_; }
 
   private:
     void agent(RecordedDrone& drone);
+    [[nodiscard]] Vec3 place();
     void sample();
     void moved(const Vec3& by, double dt_s);
     void payload(RecordedDrone& drone);

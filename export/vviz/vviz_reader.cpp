@@ -130,7 +130,10 @@ class File {
             if (drone.name.empty()) drone.name = drone_name(i + 1, show_.drones.size());
             if (drone.pieces.empty()) drone.pieces.push_back({0.0, show_.duration_s, 0, 0});
             for (Vec3& p : drone.controls_m) p = from_vviz(p, flavour_);
-            drone.home_m = drone.controls_m.front();
+            if (drone.home_m) drone.home_m = from_vviz(*drone.home_m, flavour_);
+            if (drone.land_m) drone.land_m = from_vviz(*drone.land_m, flavour_);
+            if (!drone.home_m) drone.home_m = drone.controls_m.front();
+            if (!drone.land_m && !notes_.empty()) drone.land_m = last_position(drone);
         }
         show_.rounding.position_m = kHalfMillimetre_m;
         show_.rounding.fit_m = kVvizPairCost_m / 2.0;

@@ -21,10 +21,12 @@ TEST(LightSamples, HoldColoursAndJumpInOneFrame) {
                             LightSample{49, kRed8}, LightSample{50, kBlue8}));
 }
 
-TEST(LightSamples, FadesHaveASampleEveryTenFrames) {
+TEST(LightSamples, FadesHaveASampleEveryTenFramesOrThirtyTwo) {
     const std::vector<LightKey> keys{{0, {0, 0, 0}, true}, {500, kRed, false}};
     EXPECT_THAT(light_samples(keys, 20), ElementsAre(LightSample{0, kDark8}, LightSample{8, {82, 0, 0}},
                                                      LightSample{16, {163, 0, 0}}, LightSample{25, kRed8}));
+    const std::vector<LightKey> slow{{0, {0, 0, 0}, true}, {60'000, kRed, false}};
+    EXPECT_EQ(light_samples(slow, 20).size(), 33u);
 }
 
 /// The three properties on random tracks, several keys in a frame included.

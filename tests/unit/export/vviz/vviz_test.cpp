@@ -119,6 +119,21 @@ TEST(Vviz, TellsWhatTheShowIs) {
     EXPECT_EQ(written_files(vviz_format(), unknown)[0].bytes.find("globalReferenceFrame"), std::string::npos);
 }
 
+/// Planes begin in the air: their homes were read as where the path begins.
+TEST(Vviz, HomesThatThePathDoesNotTouchAreKept) {
+    for (const VvizFlavour flavour : {VvizFlavour::verge, VvizFlavour::finale}) {
+        planner::FlightPlan plan = flavoured(flavour);
+        const RecordedShow usual = read_back(vviz_format(), written_files(vviz_format(), plan));
+        EXPECT_LE(glm::length(*usual.drones[1].land_m - plan.pads_m[1]), 1e-9);
+        plan.pads_m[1] = {100.0, 60.0, -3.5};
+        const RecordedShow show = read_back(vviz_format(), written_files(vviz_format(), plan));
+        EXPECT_EQ(*show.drones[1].home_m, plan.pads_m[1]);
+        EXPECT_EQ(*show.drones[1].land_m, plan.pads_m[1]);
+        EXPECT_EQ(first_position(show.drones[1]), first_position(usual.drones[1]));
+        EXPECT_LE(glm::length(*show.drones[2].home_m - plan.pads_m[2]), 1e-9);
+    }
+}
+
 TEST(Vviz, ItsOwnJudgeFindsNothingWrong) {
     for (const planner::FlightPlan& plan : {fixed::show(), large::show(60)}) {
         RecordedShow show = read_back(vviz_format(), written_files(vviz_format(), plan));
