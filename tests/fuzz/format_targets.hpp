@@ -6,11 +6,14 @@
 #include "export/bytes/zip.hpp"
 #include "export/maps/czml.hpp"
 #include "export/maps/kmz.hpp"
+#include "export/scene/glb.hpp"
 #include "export/skybrush/csv_zip_reader.hpp"
 #include "export/skybrush/light_program.hpp"
 #include "export/skybrush/skyb.hpp"
 #include "export/skybrush/skyb_layout.hpp"
 #include "export/skybrush/skyc.hpp"
+#include "export/vehicle/crazyflie.hpp"
+#include "export/vehicle/px4_csv.hpp"
 #include "export/vviz/vviz_reader.hpp"
 #include "export/waypoint/qgc_plan.hpp"
 #include "export/waypoint/waypoints.hpp"
@@ -59,6 +62,36 @@ inline void try_kmz(std::string_view bytes) {
 }
 inline void try_czml(std::string_view bytes) {
     try_reader(read_czml, "a.czml", std::string(bytes));
+}
+/// Once as it is, once with lengths that fit; what does not begin like GLB becomes its JSON, above a few floats.
+inline void try_glb(std::string_view bytes) {
+    try_reader(read_glb, "a.glb", std::string(bytes));
+    std::string file(bytes), word;
+    if (!bytes.starts_with("glTF")) {
+        file = "glTF";
+        put(file, std::uint32_t{2});
+        put(file, std::uint32_t{0});
+        put(file, static_cast<std::uint32_t>(bytes.size()));
+        file += "JSON" + std::string(bytes);
+        put(file, std::uint32_t{80});
+        file += std::string("BIN\0", 4);
+        for (int k = 0; k < 20; ++k) put(file, static_cast<float>(k));
+    }
+    put(word, static_cast<std::uint32_t>(file.size()));
+    if (file.size() >= 12) try_reader(read_glb, "a.glb", file.replace(8, 4, word));
+}
+/// As a drone's file, and as what stands beside one.
+inline void try_vehicle(Reader read, std::string_view bytes, const std::string& sound) {
+    try_reader(read, "a.csv", std::string(bytes));
+    const auto show = read(std::vector<FileBytes>{{"show.json", std::string(bytes)}, {"a.csv", sound}});
+    if (read_or_refused(show)) insist(well_formed(*show).ok());
+}
+inline void try_px4_csv(std::string_view bytes) {
+    try_vehicle(read_px4_csv, bytes, "t,px,py,pz\n0,1,2,-3\n1,2,3,-4\n");
+}
+inline void try_crazyflie(std::string_view bytes) {
+    try_vehicle(read_crazyflie, bytes,
+                "duration,x^0\n1,0,1,0,0,0,0,0,0,0,0,0,0,0,0,0,0,1,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0\n");
 }
 inline void try_qgc_plan(std::string_view bytes) {
     try_reader(read_qgc_plan, "a.plan", std::string(bytes));

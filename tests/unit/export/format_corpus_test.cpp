@@ -55,6 +55,15 @@ TEST(FormatCorpus, KmzIsHandled) {
 TEST(FormatCorpus, CzmlIsHandled) {
     replay_corpus(fuzz::try_czml, "czml");
 }
+TEST(FormatCorpus, GlbIsHandled) {
+    replay_corpus(fuzz::try_glb, "glb");
+}
+TEST(FormatCorpus, Px4CsvIsHandled) {
+    replay_corpus(fuzz::try_px4_csv, "px4_csv");
+}
+TEST(FormatCorpus, CrazyflieIsHandled) {
+    replay_corpus(fuzz::try_crazyflie, "crazyflie");
+}
 TEST(FormatCorpus, QgcPlanIsHandled) {
     replay_corpus(fuzz::try_qgc_plan, "qgc_plan");
 }

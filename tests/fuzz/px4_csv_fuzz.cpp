@@ -1,0 +1,12 @@
+#include <cstddef>
+#include <cstdint>
+
+#include "tests/fuzz/format_targets.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    const void* bytes = data;
+    aerogram::exporter::fuzz::try_px4_csv({static_cast<const char*>(bytes), size});
+    return 0;
+}
