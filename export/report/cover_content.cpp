@@ -45,18 +45,29 @@ const ReportRule* tightest(const Report& report) {
     return found;
 }
 
+/// The nearest of what stands around the show; of a failing show, and where nothing does, the tightest rule.
+Figure margin_figure(const Report& report) {
+    const ReportRule* rule = nullptr;
+    for (const char* name : {"geofence", "audience", "obstacles"}) {
+        const ReportRule* around = rule_named(report, name);
+        if (around != nullptr && (rule == nullptr || around->margin < rule->margin)) rule = around;
+    }
+    const bool around = rule != nullptr && report.certified;
+    if (!around) rule = tightest(report);
+    if (rule == nullptr) return {"Tightest margin", kAbsent, "no rule judged"};
+    const std::string who = who_and_when(*rule);
+    return {around ? "Least margin to fence, audience, obstacles" : "Tightest margin",
+            signed_text(rule->margin, rule_digits(*rule)) + " " + rule->unit,
+            rule->title + (who.empty() ? "" : "; " + who)};
+}
+
 std::vector<Figure> figures_of(const Report& report) {
     std::vector<Figure> figures;
     const ReportRule* separation = rule_named(report, "separation");
     Figure smallest = rule_figure(separation, "Smallest separation");
     if (separation != nullptr) smallest.value = with_unit(report.min_separation_m, rule_digits(*separation), "m");
     figures.push_back(smallest);
-    if (const ReportRule* rule = tightest(report)) {
-        figures.push_back(
-            {"Tightest margin", signed_text(rule->margin, rule_digits(*rule)) + " " + rule->unit, rule->title});
-    } else {
-        figures.push_back({"Tightest margin", kAbsent, "no rule judged"});
-    }
+    figures.push_back(margin_figure(report));
     figures.push_back(rule_figure(rule_named(report, "altitude_max"), "Highest altitude"));
     const ReportRule* speed = rule_named(report, "speed_horizontal");
     figures.push_back(rule_figure(speed != nullptr ? speed : rule_named(report, "airspeed_max"),

@@ -10,7 +10,7 @@ namespace {
 TableRow rule_row(const ReportRule& rule) {
     const int digits = rule_digits(rule);
     return {{rule.title, (rule.at_least ? "≥ " : "≤ ") + fixed_text(rule.limit, digits),
-             rule.allowance > 0.0 ? fixed_text(rule.allowance, 3) : kAbsent, fixed_text(rule.worst, digits),
+             rule.allowance >= 0.0005 ? fixed_text(rule.allowance, 3) : kAbsent, fixed_text(rule.worst, digits),
              signed_text(rule.margin, digits), rule.unit, drones_text(rule.drones, 2),
              rule.time_s ? clock_text(*rule.time_s) : kAbsent, rule.place_m ? place_text(*rule.place_m) : kAbsent,
              rule.held ? "held" : "BROKEN"},
@@ -113,7 +113,9 @@ Section sensitivity_section(const Report& report) {
                 {}};
     const auto margin = [](const std::optional<double>& m) { return m ? signed_text(*m, 2) : std::string(kAbsent); };
     for (const ReportSensitivity& s : report.sensitivities) {
-        table.rows.push_back({{s.change, fixed_text(s.farthest_moved_m, 2), margin(s.geofence_margin_m),
+        std::string change = s.change;
+        if (const std::size_t minus = change.find(" -"); minus != std::string::npos) change.replace(minus, 2, " −");
+        table.rows.push_back({{change, fixed_text(s.farthest_moved_m, 2), margin(s.geofence_margin_m),
                                margin(s.audience_margin_m), margin(s.obstacle_margin_m), s.held ? "held" : "BROKEN"},
                               !s.held});
     }

@@ -1,6 +1,7 @@
 """The report's pages: what report.json says stands in report.pdf (read by pdftotext) and in report.html (in headless Chromium).
 
-The reports are the made-up ones of tests/unit/export/report (10, 1,000 and 10,000 drones, certified and failing).
+The reports are the made-up ones of tests/unit/export/report (10, 1,000 and 10,000 drones, certified and failing), and that of
+missions/the-end.toml.
 """
 import csv
 import html.parser
@@ -10,7 +11,7 @@ import re
 import subprocess
 import xml.etree.ElementTree as ET
 
-from aerogram import PROGRAM, fresh
+from aerogram import PROGRAM, SOURCE, fresh, planned
 
 BANNER = "NOT CERTIFIED – DO NOT FLY"
 work = fresh("report")
@@ -185,3 +186,7 @@ for drones in (10, 1000, 10000):
         stem = work / f"{drones}{ending}"
         check_report(*(stem.with_name(stem.name + suffix) for suffix in (".json", ".pdf", ".html")))
     check_pads(work / f"{drones}-pads.csv", work / f"{drones}-pads.pdf")
+
+show = work / "the-end"
+planned(SOURCE / "missions/the-end.toml", show)
+check_report(show / "report.json", show / "report.pdf", show / "report.html")

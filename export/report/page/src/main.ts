@@ -48,7 +48,7 @@ function sectionOf(section: Section): HTMLElement {
 const { cover } = report;
 if (!cover.certified) {
     place('banner').hidden = false;
-    place('banner').textContent = cover.verdict;
+    place('banner').append(el('span', {}, cover.verdict));
     document.body.classList.add('failing');
 }
 place('top').append(el('p', {}, 'Flight validation report'), el('h1', {}, cover.title));
