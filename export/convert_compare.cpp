@@ -37,12 +37,25 @@ Bezier stretch(const Flight& flight, std::size_t k, double from_s, double to_s) 
     return restricted(whole, u, v);
 }
 
-double farthest(const Bezier& a, const Bezier& b) {
-    const std::size_t degree = std::max(a.degree, b.degree);
-    const Bezier x = elevated(a, degree), y = elevated(b, degree);
-    double result = 0.0;
-    for (std::size_t c = 0; c <= degree; ++c) result = std::max(result, glm::length(x.control[c] - y.control[c]));
-    return result;
+constexpr double kResolved_m = 1e-5;
+constexpr int kMostHalvings = 24;
+
+/// An upper bound, to kResolved_m, of how long the curve's vector gets; no more is found out below `least_m`.
+double longest(const Bezier& curve, double least_m, int halvings) {
+    double hull_m = 0.0;
+    for (const Vec3& p : curve.controls()) hull_m = std::max(hull_m, glm::length(p));
+    const double attained_m = std::max(glm::length(curve.front()), glm::length(curve.back()));
+    if (hull_m <= std::max(least_m, attained_m + kResolved_m) || halvings == 0) return hull_m;
+    const auto [left, right] = split(curve, 0.5);
+    const double first_m = longest(left, std::max(least_m, attained_m), halvings - 1);
+    return std::max(first_m, longest(right, std::max(least_m, first_m), halvings - 1));
+}
+
+double farthest(const Bezier& a, const Bezier& b, double least_m) {
+    Bezier difference = elevated(a, std::max(a.degree, b.degree));
+    const Bezier other = elevated(b, difference.degree);
+    for (std::size_t c = 0; c <= difference.degree; ++c) difference.control[c] -= other.control[c];
+    return longest(difference, least_m, kMostHalvings);
 }
 
 /// Walks over all times at which either flight begins another piece.
@@ -60,7 +73,7 @@ Deviation of_one(const Flight& a, const Flight& b, double end_s) {
     for (double at_s = 0.0; at_s < end_s;) {
         const double to_s = std::max(at_s, std::min({next_s(a, i, at_s), next_s(b, j, at_s), end_s}));
         if (to_s > at_s) {
-            const double off_m = farthest(stretch(a, i, at_s, to_s), stretch(b, j, at_s, to_s));
+            const double off_m = farthest(stretch(a, i, at_s, to_s), stretch(b, j, at_s, to_s), worst.position_m);
             if (off_m > worst.position_m) worst = {off_m, 0, at_s};
         }
         if (to_s >= end_s) break;
