@@ -9,7 +9,8 @@ namespace aerogram::exporter {
 namespace {
 
 constexpr double kForever = std::numeric_limits<double>::infinity();
-constexpr double kSmallestCell_m = 0.75;
+constexpr double kSmallestCell_m = 1.2;
+constexpr double kDirect = 4.0;          ///< cells: wider questions are asked in steps
 constexpr double kMostCrossings = 25e6;  ///< of cells, by all ways: 100 MB
 constexpr double kRounding_m = 2e-3;     ///< of floats, a kilometre away
 constexpr std::size_t kDronesATask = 64;
@@ -184,7 +185,7 @@ void ChordIndex::meet(std::uint32_t entry, const Mover& way, Stance stance, Foun
 
 /// Looks wider and wider until nobody closer can be left. low, high: the way's box, drifted.
 void ChordIndex::look_around(const Mover& way, const Vec3& low, const Vec3& high, Stance stance, Found& found) const {
-    for (double reach = 0.5 * cell_;; reach *= 2.0) {
+    for (double reach = kDirect * cell_;; reach *= 2.0) {
         const bool last = found.distance <= reach;
         const Vec3 wider(std::min(reach, found.distance) + kRounding_m);
         const Vec3 cells = (high - low + 2.0 * wider) / cell_ + 2.0;

@@ -10,8 +10,27 @@
 namespace aerogram::exporter {
 namespace {
 
-constexpr std::size_t kSecondsATask = 8;
+constexpr std::size_t kSecondsATask = 24;
 constexpr double kCrossing_m = 2.0;  ///< of the way home, looked at in one go
+
+/// What a question at an earlier second has shown. Who stays where it was, from then or from later on, is met by nobody
+/// whom it was not met by before; and distances change by no more than it moves.
+struct Known {
+    Vec3 at{};
+    double begin_s = 0.0, least = -1.0;
+    Stance stance = Stance::flying;
+
+    /// The same as index.ask, of a drone that stays without end.
+    void ask(const ChordIndex& index, const ChordIndex::Question& q, Found& found) {
+        if (q.begin_s >= begin_s && q.stance == stance && least - glm::length(q.at - at) >= found.distance) return;
+        index.ask(q, found);
+        *this = {q.at, q.begin_s, found.distance, q.stance};
+    }
+};
+/// Of one drone, from second to second.
+struct Memory {
+    Known hold, land, home;
+};
 
 class OneLeaves {
   public:
@@ -20,14 +39,17 @@ class OneLeaves {
     }
 
     /// Standing, lying on the ground, crossing.
-    void without_drift(const ChordIndex& index, std::size_t drone, std::size_t second, Manoeuvres& worst) const {
+    void without_drift(const ChordIndex& index, std::size_t drone, std::size_t second, Memory& memory,
+                       Manoeuvres& worst) const {
         const Stop stop = stop_of(all_, model_, drone, second);
         if (!stop.in_air) return;
         const double alarm_s = static_cast<double>(second);
-        index.ask({drone, stop.stance, stop.hold, alarm_s + stop.brake_s}, worst.hold);
+        memory.hold.ask(index, {drone, stop.stance, stop.hold, alarm_s + stop.brake_s}, worst.hold);
         const Stance down = stop.stance == Stance::above_pad ? Stance::on_pad : Stance::flying;
-        index.ask({drone, down, landed(drone, stop), alarm_s + landed_s(drone, stop)}, worst.land);
-        cross(index, drone, alarm_s, way_home(all_, model_, drone, stop), worst.back);
+        memory.land.ask(index, {drone, down, landed(drone, stop), alarm_s + landed_s(drone, stop)}, worst.land);
+        const Way way = way_home(all_, model_, drone, stop);
+        memory.home.ask(index, {drone, Stance::on_pad, way.home, alarm_s + way.home_s}, worst.back);
+        cross(index, drone, alarm_s, way, worst.back);
     }
 
     void sinking(const ChordIndex& index, std::size_t drone, std::size_t second, Manoeuvres& worst) const {
@@ -57,7 +79,6 @@ class OneLeaves {
     }
 
     void cross(const ChordIndex& index, std::size_t drone, double alarm_s, const Way& way, Found& found) const {
-        index.ask({drone, Stance::on_pad, way.home, alarm_s + way.home_s}, found);
         if (way.high.z - highest_ > found.distance || alarm_s + way.cross_s > all_.duration_s) return;
         const double length = glm::length(way.above_home - way.high), pieces = std::ceil(length / kCrossing_m);
         for (double p = 0.0; p < pieces; p += 1.0) {
@@ -179,12 +200,14 @@ template <class Step>
 void for_everybody(const Survey& all, const Run& run, std::string_view stage, std::vector<Manoeuvres>& worst,
                    const Step& step) {
     parallel_for((all.seconds + kSecondsATask - 1) / kSecondsATask, run, stage, [&](std::size_t task) {
+        std::vector<Memory> memory(all.drones.size());
         for (std::size_t s = task * kSecondsATask; s < std::min(all.seconds, (task + 1) * kSecondsATask); ++s) {
+            const auto ask = [&](std::size_t d) { step(d, s, memory[d], worst[s]); };
             if (s > task * kSecondsATask) {
                 const Manoeuvres& before = worst[s - 1];
-                for (const Found* found : {&before.hold, &before.land, &before.back}) step(found->first, s, worst[s]);
+                for (const Found* found : {&before.hold, &before.land, &before.back}) ask(found->first);
             }
-            for (std::size_t d = 0; d < all.drones.size() && !run.stopped(); ++d) step(d, s, worst[s]);
+            for (std::size_t d = 0; d < all.drones.size() && !run.stopped(); ++d) ask(d);
         }
     });
 }
@@ -202,17 +225,22 @@ std::vector<Manoeuvres> one_leaves(const Survey& all, const EmergencyModel& mode
     {
         const ChordIndex index(all, 0.0, run);
         for_everybody(all, run, "one drone holds", worst,
-                      [&](std::size_t d, std::size_t s, Manoeuvres& found) { one.without_drift(index, d, s, found); });
+                      [&](std::size_t d, std::size_t s, Memory& memory, Manoeuvres& found) {
+                          one.without_drift(index, d, s, memory, found);
+                      });
     }
     {
         const ChordIndex index(all, -model.land_mps, run);
         for_everybody(all, run, "one drone lands", worst,
-                      [&](std::size_t d, std::size_t s, Manoeuvres& found) { one.sinking(index, d, s, found); });
+                      [&](std::size_t d, std::size_t s, Memory& /*none*/, Manoeuvres& found) {
+                          one.sinking(index, d, s, found);
+                      });
     }
     {
         const ChordIndex index(all, model.rise_mps, run);
-        for_everybody(all, run, "one drone returns", worst,
-                      [&](std::size_t d, std::size_t s, Manoeuvres& found) { one.rising(index, d, s, found); });
+        for_everybody(
+            all, run, "one drone returns", worst,
+            [&](std::size_t d, std::size_t s, Memory& /*none*/, Manoeuvres& found) { one.rising(index, d, s, found); });
     }
     for_seconds(all, model, run, "one drone brakes", [&](Braking& braking, std::size_t s) { braking.at(s, worst[s]); });
     return worst;

@@ -45,13 +45,17 @@ double missed(const RecordedDrone& drone, double step_s) {
     double acceleration = 0.0, jumps = 0.0, in_step = 0.0;
     std::size_t step = 0;
     Vec3 velocity{};
+    bool first = true;
     for (const Piece& piece : drone.pieces) {
         const Vec3* c = &drone.controls_m[piece.first_control];
         const double degree = piece.degree;
         const Vec3 begins = piece.degree == 0 ? Vec3{} : degree / piece.duration_s * (c[1] - c[0]);
         const auto now = static_cast<std::size_t>(std::max(0.0, piece.start_s) / step_s);
         if (now != step) in_step = 0.0, step = now;
-        in_step += glm::length(begins - velocity);
+        const double after_instant_s = piece.start_s - static_cast<double>(now) * step_s;
+        const bool at_instant = std::min(after_instant_s, step_s - after_instant_s) < 1e-9;
+        if (!first && !at_instant) in_step += glm::length(begins - velocity);
+        first = false;
         jumps = std::max(jumps, in_step);
         velocity = piece.degree == 0 ? Vec3{} : degree / piece.duration_s * (c[piece.degree] - c[piece.degree - 1]);
         const double per_s2 = degree * (degree - 1.0) / (piece.duration_s * piece.duration_s);
@@ -124,7 +128,8 @@ Survey survey(const OutgoingShow& show, const std::vector<double>& times_s, cons
     all.duration_s = seconds_from_ms(facts.duration_ms);
     all.downwash = facts.limits.downwash;
     all.middle_m = middle_of(show);
-    all.steps_a_second = steps_a_second(show.drones(), all.duration_s, facts.acceleration_mps2);
+    all.steps_a_second = steps_a_second(show.drones(), all.duration_s,
+                                        std::max(facts.acceleration_mps2, facts.limits.acceleration_mps2));
     all.instants = static_cast<std::size_t>(std::ceil(all.duration_s / all.step_s() - 1e-9)) + 1;
     all.seconds = static_cast<std::size_t>(all.duration_s) + 1;
     all.places.resize(show.drones() * all.instants);
