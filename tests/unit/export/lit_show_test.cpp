@@ -57,7 +57,7 @@ TEST(LitShow, HasHundredsOfKeysThatLightProgramsKeepWithinAnEightBitStep) {
 
 TEST(LitShow, EveryFormatWithLightsBringsThemBack) {
     const planner::FlightPlan plan = stormy_show();
-    for (const std::string name : {"trajectories", "skyc", "csv", "preview"}) {
+    for (const std::string name : {"trajectories", "skyc", "glb", "csv", "preview"}) {
         const Format* format = find_format(name);
         ASSERT_NE(format, nullptr) << name;
         const RecordedShow show = read_back(*format, written_files(*format, plan, {show_hash(plan), true}));
