@@ -103,17 +103,28 @@ ActFitter::ActFitter(const Act& act, const Limits& limits)
     const auto* straight = std::get_if<planner::Straight>(&act.motion);
     if (straight == nullptr) return;
     const Act unit = unit_flight(act, *straight);
-    for (const auto& bounds : choices_) unit_misfits_.push_back(measured(unit, DroneId(0), bounds, kNever));
+    const Exact exact = exact_curve(unit, DroneId(0));
+    for (const auto& bounds : choices_) unit_misfits_.push_back(measured(unit, DroneId(0), exact, bounds, kNever));
 }
 
-ActFitter::Misfit ActFitter::measured(const Act& act, DroneId drone, const std::vector<Millis>& bounds,
-                                      double give_up_m) {
-    Misfit result;
+ActFitter::Exact ActFitter::exact_curve(const Act& act, DroneId drone) {
+    Exact exact;
     const std::size_t intervals = planner::interval_count(act.motion);
     const double h = planner::knot_step_s(act);
-    for (std::size_t m = 0; m < intervals; ++m)
-        result.exact_peak_mps2 =
-            std::max(result.exact_peak_mps2, largest_acceleration(planner::bezier(act.motion, m, drone.value), h));
+    exact.cubics.reserve(intervals);
+    for (std::size_t m = 0; m < intervals; ++m) {
+        exact.cubics.push_back(planner::bezier(act.motion, m, drone.value));
+        exact.peak_mps2 = std::max(exact.peak_mps2, largest_acceleration(exact.cubics.back(), h));
+    }
+    return exact;
+}
+
+ActFitter::Misfit ActFitter::measured(const Act& act, DroneId drone, const Exact& exact,
+                                      const std::vector<Millis>& bounds, double give_up_m) {
+    Misfit result;
+    result.exact_peak_mps2 = exact.peak_mps2;
+    const std::size_t intervals = exact.cubics.size();
+    const double h = planner::knot_step_s(act);
     std::size_t m = 0;
     for (std::size_t j = 0; j + 1 < bounds.size() && result.position_m <= give_up_m; ++j) {
         const double from_s = seconds_from_ms(bounds[j]), to_s = seconds_from_ms(bounds[j + 1]),
@@ -124,9 +135,9 @@ ActFitter::Misfit ActFitter::measured(const Act& act, DroneId drone, const std::
             const double knot_s = static_cast<double>(m) * h;
             const bool last = m + 1 == intervals || static_cast<double>(m + 1) * h >= to_s;
             const double end_s = last ? to_s : static_cast<double>(m + 1) * h;
-            const Cubic exact = planner::bezier(act.motion, m, drone.value);
             if (end_s - at_s > 1e-9)
-                widen(result.position_m, result.speed_mps, part(exact, (at_s - knot_s) / h, (end_s - knot_s) / h),
+                widen(result.position_m, result.speed_mps,
+                      part(exact.cubics[m], (at_s - knot_s) / h, (end_s - knot_s) / h),
                       part(fit, (at_s - from_s) / length_s, (end_s - from_s) / length_s), end_s - at_s);
             at_s = end_s;
             if (last) break;
@@ -140,9 +151,9 @@ FitError ActFitter::error_of(const Misfit& m) const {
     return {m.position_m, m.speed_mps, std::max(0.0, m.fit_peak_mps2 - allowed_mps2)};
 }
 
-FitError ActFitter::error_of(DroneId drone, std::size_t choice) const {
+FitError ActFitter::error_of(DroneId drone, const Exact& exact, std::size_t choice) const {
     const double give_up_m = choice + 1 < choices_.size() ? aim_.position_m : kNever;
-    if (unit_misfits_.empty()) return error_of(measured(act_, drone, choices_[choice], give_up_m));
+    if (unit_misfits_.empty()) return error_of(measured(act_, drone, exact, choices_[choice], give_up_m));
     const auto& straight = std::get<planner::Straight>(act_.motion);
     const double l = glm::length(straight.to_m[drone.value] - straight.from_m[drone.value]);
     const Misfit& unit = unit_misfits_[choice];
@@ -156,9 +167,10 @@ Fitted ActFitter::fit(DroneId drone) const {
         result.pieces.push_back({act_.start_ms, act_.duration_ms, true, {place, place, place, place}});
         return result;
     }
+    const Exact exact = unit_misfits_.empty() ? exact_curve(act_, drone) : Exact{};
     std::size_t choice = 0;
-    result.error = error_of(drone, choice);
-    while (!result.error.within(aim_) && choice + 1 < choices_.size()) result.error = error_of(drone, ++choice);
+    result.error = error_of(drone, exact, choice);
+    while (!result.error.within(aim_) && choice + 1 < choices_.size()) result.error = error_of(drone, exact, ++choice);
     const std::vector<Millis>& bounds = choices_[choice];
     for (std::size_t j = 0; j + 1 < bounds.size(); ++j)
         result.pieces.push_back({act_.start_ms + bounds[j], bounds[j + 1] - bounds[j], false,

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <vector>
 
 #include "export/outgoing/fitted.hpp"
@@ -37,11 +38,18 @@ class ActFitter {
     struct Misfit {
         double position_m = 0.0, speed_mps = 0.0, exact_peak_mps2 = 0.0, fit_peak_mps2 = 0.0;
     };
+    /// One drone's cubics of an act, a knot interval each, and the largest acceleration on them.
+    struct Exact {
+        std::vector<std::array<Vec3, 4>> cubics;
+        double peak_mps2 = 0.0;
+    };
+    [[nodiscard]] static Exact exact_curve(const planner::Act& act, DroneId drone);
     /// @param give_up_m  a misfit beyond this ends the measurement: what comes back says no more than "too much".
-    [[nodiscard]] static Misfit measured(const planner::Act& act, DroneId drone, const std::vector<Millis>& bounds,
-                                         double give_up_m);
+    [[nodiscard]] static Misfit measured(const planner::Act& act, DroneId drone, const Exact& exact,
+                                         const std::vector<Millis>& bounds, double give_up_m);
     [[nodiscard]] FitError error_of(const Misfit& misfit) const;
-    [[nodiscard]] FitError error_of(DroneId drone, std::size_t choice) const;
+    /// @param exact  of the drone; not looked at for straight acts.
+    [[nodiscard]] FitError error_of(DroneId drone, const Exact& exact, std::size_t choice) const;
 
     const planner::Act& act_;
     FitError aim_;
