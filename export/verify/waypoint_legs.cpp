@@ -9,6 +9,9 @@
 namespace aerogram::exporter {
 namespace {
 
+/// A straight line that is longer is no leg above ground.
+constexpr double kFarthest_m = 100'000.0;
+
 bool on_earth(const geo::Geodetic& place) {
     return std::abs(place.latitude_deg) <= 90.0 && std::abs(place.longitude_deg) <= 180.0 &&
            std::abs(place.height_m) <= 1e6;
@@ -161,6 +164,17 @@ Result<RecordedShow> legs_as_pieces(const RecordedShow& untimed, Rules& rules) {
             sound = sound && on_earth(waypoint.place) && std::abs(waypoint.altitude_above_home_m) <= 1e6;
         }
         if (!sound) return Error{ErrorCode::invalid_input, name + ": a waypoint or the home is not on earth"};
+    }
+    for (std::size_t d = 0; d < untimed.drones.size(); ++d) {
+        const RecordedDrone& drone = untimed.drones[d];
+        const geo::ShowFrame around(geo::ShowOrigin{*drone.home, 0.0, {}});
+        for (const Waypoint& waypoint : drone.waypoints) {
+            const geo::Geodetic& place = waypoint.place;
+            const Vec3 there = around.to_show({place.latitude_deg, place.longitude_deg, drone.home->height_m});
+            if (glm::length(there) > kFarthest_m)
+                return Error{ErrorCode::invalid_input,
+                             "drone " + std::to_string(d + 1) + ": a waypoint is more than 100 km from home"};
+        }
     }
     if (!rules.frame) rules.frame.emplace(geo::ShowOrigin{*untimed.drones.front().home, 0.0, {}});
     RecordedShow legs = untimed;

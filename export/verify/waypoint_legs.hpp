@@ -6,7 +6,8 @@ namespace aerogram::exporter {
 /// The legs of an untimed show as straight lines in the show frame, one pseudo-second each, so that places can be
 /// judged like those of a timed one: vertical take-off above home, straight to each waypoint, level to the landing
 /// place and straight down. Without an origin in `rules`, the first drone's home becomes one (heading north). Errors:
-/// invalid_input naming the drone that has no home, or a place that is not on earth.
+/// invalid_input naming the drone that has no home, a place that is not on earth, or
+/// one more than 100 km from home.
 /// A home whose height the file does not tell stands on the show's ground.
 Result<RecordedShow> legs_as_pieces(const RecordedShow& untimed, Rules& rules);
 

@@ -67,6 +67,15 @@ TEST(JudgeWaypoints, WithoutOriginOrHomeAreHandled) {
     EXPECT_EQ(result.error().message, "drone 1: the file holds no home to count altitudes from");
 }
 
+/// A fuzzer's: a leg around the earth took the altitude rule minutes.
+TEST(JudgeWaypoints, FarFromHomeAreRefused) {
+    RecordedShow show = mission(10.0);
+    show.drones[0].waypoints[2].place.latitude_deg = 0.0;
+    const auto result = judge(show, {}, aerogram::Run{});
+    ASSERT_FALSE(result.ok());
+    EXPECT_EQ(result.error().message, "drone 1: a waypoint is more than 100 km from home");
+}
+
 /// Two drones side by side that wait at the first two of their waypoints.
 RecordedShow two_that_wait(double apart_m, const std::vector<double>& first, const std::vector<double>& second) {
     RecordedShow show = mission(10.0);
