@@ -12,6 +12,7 @@ namespace aerogram::exporter {
 namespace {
 
 constexpr double kNumeric = 1e-6;
+constexpr double kWaitRounding_s = 0.5, kWaitStep_s = 0.05;
 constexpr double kResolved_m = 1e-4;  ///< of two separations: SeparationSearch::resolved_m and a margin
 constexpr double kSampleEvery_s = 0.25;
 constexpr double kMostSamples = 4e6;  ///< of all drones together
@@ -147,6 +148,14 @@ std::string origin_off(const geo::ShowOrigin& held, const geo::ShowOrigin& exact
     return {};
 }
 
+/// How far a drone is, at the nearest, from where it should wait until t_s, which was rounded to whole seconds.
+double off_wait_m(const RecordedDrone& flies, double until_s, const Vec3& place) {
+    double nearest_m = std::numeric_limits<double>::infinity();
+    for (double t_s = until_s - kWaitRounding_s; t_s <= until_s + kWaitRounding_s; t_s += kWaitStep_s)
+        nearest_m = std::min(nearest_m, glm::length(position_at(flies, t_s) - place));
+    return nearest_m;
+}
+
 Problems places_disagree(const RecordedShow& reference, const RecordedShow& show, const geo::ShowOrigin& origin) {
     const geo::ShowFrame frame(origin);
     const double allowed_m = space_m(reference.rounding) + space_m(show.rounding) + kWaypointSlack_m;
@@ -163,6 +172,9 @@ Problems places_disagree(const RecordedShow& reference, const RecordedShow& show
             for (const Piece& piece : flies.pieces) {
                 nearest_m = std::min(nearest_m, glm::length(flies.controls_m[piece.first_control] - place));
             }
+            // Formats whose waits are in show time; the last may be later than the show.
+            const bool waits = waypoint.until_s && show.format == "qgc" && w + 2 < show.drones[d].waypoints.size();
+            if (waits) nearest_m = std::max(nearest_m, off_wait_m(flies, *waypoint.until_s, place));
             if (nearest_m <= allowed_m) continue;
             return {"drone " + std::to_string(d + 1) + ": waypoint " + std::to_string(w + 1) + " is " +
                     shown(nearest_m) + " m from where " + reference.format + " goes (" + shown(allowed_m) +

@@ -12,6 +12,7 @@
 #include "export/export_show.hpp"
 #include "export/formats.hpp"
 #include "export/manifest_json.hpp"
+#include "export/verify_agreement.hpp"
 #include "tests/unit/export/fixed_show.hpp"
 #include "tests/unit/export/scratch_folder.hpp"
 
@@ -83,7 +84,7 @@ TEST(ExportShow, WritesEveryFormatWithItsHashes) {
         ASSERT_TRUE(files.contains(file.path)) << file.path;
         EXPECT_EQ(file.bytes, files[file.path].size());
         EXPECT_EQ(file.sha256, sha256_hex(files[file.path])) << file.path;
-        EXPECT_EQ(file.timing.has_value(), file.format != "certificate");
+        EXPECT_EQ(file.timing.has_value(), !is_paper(file.format)) << file.path;
         if (file.min_separation_m) {
             EXPECT_GE(*file.min_separation_m, plan.limits.min_separation_m) << file.path;
         }
@@ -170,7 +171,15 @@ TEST(ExportShow, FilesThatBreakALimitAreNotKept) {
     ASSERT_FALSE(exported.ok());
     EXPECT_EQ(exported.error().code, ErrorCode::infeasible);
     EXPECT_THAT(exported.error().message, HasSubstr("trajectories: separation 0, limit 1.5, drones 1 2, at "));
-    EXPECT_EQ(contents(scratch.path()), before) << "the destination is as it was, and nothing lies beside it";
+    EXPECT_THAT(exported.error().message, HasSubstr("show-refused/report.html"));
+    auto after = contents(scratch.path());
+    for (const char* report : {"report.html", "report.json", "report.pdf"})
+        EXPECT_EQ(after.erase(std::string("show-refused/") + report), 1U) << "a refused show has its report";
+    EXPECT_TRUE(after == before) << "the destination is as it was, and nothing else lies beside it";
+    ASSERT_TRUE(
+        export_show(fixed::show(), scratch.path() / "show", {.formats = kExact, .best_effort = false, .drones = {}}, {})
+            .ok());
+    EXPECT_TRUE(contents(scratch.path()) == before) << "a show that is not refused has none";
 }
 
 // "altitude_max 120, limit 120" was said of a show that was refused.
