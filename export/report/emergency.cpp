@@ -35,10 +35,10 @@ std::string words(const EmergencyModel& model, double downwash, double lowest_m,
 }
 
 /// What is reported: a lower bound.
-ReportApproach approach(const OutgoingShow& show, const Found& found, double resolution_m) {
+ReportApproach approach(const OutgoingShow& show, const Found& found, double within_m) {
     if (!std::isfinite(found.distance)) return {};
     const auto& drones = show.facts().drones;
-    return {std::max(0.0, found.distance - resolution_m), drones[found.first].number, drones[found.second].number,
+    return {std::max(0.0, found.distance - within_m), drones[found.first].number, drones[found.second].number,
             found.time_s};
 }
 
@@ -101,6 +101,10 @@ double missed_braking_m(const EmergencyModel& model, double step_s) {
     return model.acceleration_mps2 * step_s * step_s / 8.0;
 }
 
+double resolution_m(const Survey& all, const EmergencyModel& model) {
+    return 2.0 * all.missed_m + missed_braking_m(model, all.step_s());
+}
+
 Vec3 home_of(const Survey& all, std::size_t drone) {
     return all.to_metric(all.drones[drone].turn.home_m);
 }
@@ -129,15 +133,14 @@ void report_emergencies(const OutgoingShow& show, const Survey& all, const Run& 
     }
     const EmergencyModel model = emergency_model(show.facts(), all);
     report.emergency_model = model.words;
-    report.emergency_resolution_m = 2.0 * all.missed_m + missed_braking_m(model, all.step_s());
+    report.emergency_resolution_m = resolution_m(all, model);
     const std::vector<Manoeuvres> one = one_leaves(all, model, run), together = all_leave(all, model, run);
-    const double resolution_m = report.emergency_resolution_m;
+    const double within_m = report.emergency_resolution_m;
     for (std::size_t s = 0; s < all.seconds; ++s) {
         report.emergencies.push_back(
-            {static_cast<double>(s), approach(show, one[s].hold, resolution_m),
-             approach(show, one[s].land, resolution_m), approach(show, one[s].back, resolution_m),
-             approach(show, together[s].hold, resolution_m), approach(show, together[s].land, resolution_m),
-             approach(show, together[s].back, resolution_m)});
+            {static_cast<double>(s), approach(show, one[s].hold, within_m), approach(show, one[s].land, within_m),
+             approach(show, one[s].back, within_m), approach(show, together[s].hold, within_m),
+             approach(show, together[s].land, within_m), approach(show, together[s].back, within_m)});
     }
 }
 

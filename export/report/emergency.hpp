@@ -40,6 +40,10 @@ struct Stop {
 /// What straight lines of length dt miss a braking drone by.
 [[nodiscard]] double missed_braking_m(const EmergencyModel& model, double step_s);
 
+/// How much closer than the truth reported distances may be; whoever is found within that is reported as touching, and
+/// nobody closer is looked for.
+[[nodiscard]] double resolution_m(const Survey& all, const EmergencyModel& model);
+
 /// Where a drone comes down when it lands from where it holds: on its own pad where it is above it.
 [[nodiscard]] double ground_z(const Survey& all, std::size_t drone);
 [[nodiscard]] Vec3 home_of(const Survey& all, std::size_t drone);

@@ -15,7 +15,7 @@ constexpr double kCrossing_m = 3.0;  ///< of the way home in one step of time
 class AllLeave {
   public:
     AllLeave(const Survey& all, const EmergencyModel& model)
-        : all_(all), model_(model), enough_(2.0 * all.missed_m + missed_braking_m(model, all.step_s())) {}
+        : all_(all), model_(model), enough_(resolution_m(all, model)) {}
 
     void at(std::size_t second, Manoeuvres& found) {
         const double alarm_s = static_cast<double>(second);

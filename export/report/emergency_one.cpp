@@ -34,7 +34,8 @@ struct Memory {
 
 class OneLeaves {
   public:
-    OneLeaves(const Survey& all, const EmergencyModel& model) : all_(all), model_(model) {
+    OneLeaves(const Survey& all, const EmergencyModel& model)
+        : all_(all), model_(model), enough_(resolution_m(all, model)) {
         for (const Place& p : all.places) highest_ = std::max(highest_, static_cast<double>(p.z));
     }
 
@@ -44,11 +45,11 @@ class OneLeaves {
         const Stop stop = stop_of(all_, model_, drone, second);
         if (!stop.in_air) return;
         const double alarm_s = static_cast<double>(second);
-        memory.hold.ask(index, {drone, stop.stance, stop.hold, alarm_s + stop.brake_s}, worst.hold);
+        ask(memory.hold, index, {drone, stop.stance, stop.hold, alarm_s + stop.brake_s}, worst.hold);
         const Stance down = stop.stance == Stance::above_pad ? Stance::on_pad : Stance::flying;
-        memory.land.ask(index, {drone, down, landed(drone, stop), alarm_s + landed_s(drone, stop)}, worst.land);
+        ask(memory.land, index, {drone, down, landed(drone, stop), alarm_s + landed_s(drone, stop)}, worst.land);
         const Way way = way_home(all_, model_, drone, stop);
-        memory.home.ask(index, {drone, Stance::on_pad, way.home, alarm_s + way.home_s}, worst.back);
+        ask(memory.home, index, {drone, Stance::on_pad, way.home, alarm_s + way.home_s}, worst.back);
         cross(index, drone, alarm_s, way, worst.back);
     }
 
@@ -56,10 +57,10 @@ class OneLeaves {
         const Stop stop = stop_of(all_, model_, drone, second);
         if (!stop.in_air) return;
         const double alarm_s = static_cast<double>(second);
-        index.ask({drone, stop.stance, stop.hold, alarm_s + model_.wait_s, alarm_s + landed_s(drone, stop)},
-                  worst.land);
+        ask(index, {drone, stop.stance, stop.hold, alarm_s + model_.wait_s, alarm_s + landed_s(drone, stop)},
+            worst.land);
         const Way way = way_home(all_, model_, drone, stop);
-        index.ask({drone, Stance::above_pad, way.above_home, alarm_s + way.sink_s, alarm_s + way.home_s}, worst.back);
+        ask(index, {drone, Stance::above_pad, way.above_home, alarm_s + way.sink_s, alarm_s + way.home_s}, worst.back);
     }
 
     void rising(const ChordIndex& index, std::size_t drone, std::size_t second, Manoeuvres& worst) const {
@@ -67,10 +68,16 @@ class OneLeaves {
         if (!stop.in_air) return;
         const double alarm_s = static_cast<double>(second);
         const Way way = way_home(all_, model_, drone, stop);
-        index.ask({drone, stop.stance, stop.hold, alarm_s + way.rise_s, alarm_s + way.cross_s}, worst.back);
+        ask(index, {drone, stop.stance, stop.hold, alarm_s + way.rise_s, alarm_s + way.cross_s}, worst.back);
     }
 
   private:
+    void ask(Known& known, const ChordIndex& index, const ChordIndex::Question& question, Found& found) const {
+        if (found.distance > enough_) known.ask(index, question, found);
+    }
+    void ask(const ChordIndex& index, const ChordIndex::Question& question, Found& found) const {
+        if (found.distance > enough_) index.ask(question, found);
+    }
     [[nodiscard]] Vec3 landed(std::size_t drone, const Stop& stop) const {
         return {stop.hold.x, stop.hold.y, std::min(stop.hold.z, ground_z(all_, drone))};
     }
@@ -80,6 +87,7 @@ class OneLeaves {
 
     void cross(const ChordIndex& index, std::size_t drone, double alarm_s, const Way& way, Found& found) const {
         if (way.high.z - highest_ > found.distance || alarm_s + way.cross_s > all_.duration_s) return;
+        if (found.distance <= enough_) return;
         const double length = glm::length(way.above_home - way.high), pieces = std::ceil(length / kCrossing_m);
         for (double p = 0.0; p < pieces; p += 1.0) {
             const double u = p / pieces, v = (p + 1.0) / pieces;
@@ -93,6 +101,7 @@ class OneLeaves {
 
     const Survey& all_;
     const EmergencyModel& model_;
+    double enough_;  ///< closer is reported as touching
     double highest_ = -std::numeric_limits<double>::infinity();
 };
 
@@ -100,7 +109,8 @@ class OneLeaves {
 /// among the others that fly on, for each of them at once, step by step.
 class Braking {
   public:
-    Braking(const Survey& all, const EmergencyModel& model) : all_(all), model_(model) {}
+    Braking(const Survey& all, const EmergencyModel& model)
+        : all_(all), model_(model), enough_(resolution_m(all, model)) {}
 
     void at(std::size_t second, Manoeuvres& worst) {
         const double alarm_s = static_cast<double>(second);
@@ -108,7 +118,7 @@ class Braking {
         for (std::size_t d = 0; d < all_.drones.size(); ++d) stops_.push_back(stop_of(all_, model_, d, second));
         Found found;
         found.distance = std::max({worst.hold.distance, worst.land.distance, worst.back.distance});
-        if (!std::isfinite(found.distance)) return;
+        if (!std::isfinite(found.distance) || found.distance <= enough_) return;
         for (double from_s = 0.0; from_s < model_.wait_s - 1e-9; from_s += all_.step_s())
             step(alarm_s, from_s, std::min(from_s + all_.step_s(), model_.wait_s), found);
         for (Found* each : {&worst.hold, &worst.land, &worst.back})
@@ -176,6 +186,7 @@ class Braking {
 
     const Survey& all_;
     const EmergencyModel& model_;
+    double enough_;
     std::vector<Stop> stops_;
     std::vector<Mover> movers_;
     PairGrid grid_;
