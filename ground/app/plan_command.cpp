@@ -100,22 +100,27 @@ std::string summary(const FlightPlan& plan, const exporter::ExportedShow& shown,
     text << (shown.certified ? "certified      every act holds every limit in continuous time\n"
                              : "NOT CERTIFIED  do not fly; see certificate.json\n");
     text << separation_line(plan) << limits_lines(plan) << choice_lines(plan);
-    std::string written, skipped;
+    std::string written, skipped, why;
     for (const auto& format : shown.formats) {
         if (format.skipped.empty()) {
             written += " " + format.name;
         } else {
-            skipped += "left out       " + format.name + ": " + format.skipped + "\n";
+            why = skipped.empty() ? format.skipped : "manifest.json says why";
+            skipped += (skipped.empty() ? "" : ", ") + format.name;
         }
     }
-    text << "formats       " << written << "\n" << skipped;
+    text << "formats       " << written << "\n";
+    if (!skipped.empty()) text << "left out       " << skipped << ": " << why << "\n";
     text << "show hash      " << shown.show_hash << "\n";
     text << "written to     " << out.string() << "\n";
+    std::string pages;
     for (const char* page : {"preview.html", "report.html"}) {
         std::error_code failure;
         if (std::filesystem::exists(out / page, failure))
-            text << "look at        " << (out / page).string() << "  (any browser, no network needed)\n";
+            pages +=
+                (pages.empty() ? "" : " and ") + (pages.empty() ? out / page : std::filesystem::path(page)).string();
     }
+    if (!pages.empty()) text << "look at        " << pages << "  (any browser, no network needed)\n";
     return text.str();
 }
 
