@@ -208,6 +208,9 @@ Result<FlightPlan> replaced(FlightPlan plan, std::span<const Replacement> replac
             if (a < plan.certificate.acts.size()) plan.certificate.acts[a] = std::move(certificate);
         taken[spare] = true;
         std::swap(plan.pads_m[drone.value], plan.spare_pads_m[spare]);
+        if (plan.pad_of.empty())
+            for (std::size_t d = 0; d < plan.drones(); ++d) plan.pad_of.emplace_back(d);
+        plan.pad_of[drone.value] = pad;
     }
     return plan;
 }

@@ -22,6 +22,7 @@ struct OutgoingDrone {
     std::string name;        ///< "drone-017": the same in every file
     std::size_t number = 0;  ///< 17
     Vec3 home_m{}, land_m{};
+    std::size_t pad = 0;  ///< the number of its pad; 0: its own
 };
 
 /// A formation that the fleet stands in, or flows through.

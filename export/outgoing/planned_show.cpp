@@ -40,8 +40,8 @@ OutgoingFacts facts_of(const FlightPlan& plan, std::span<const DroneId> drones) 
     facts.title = plan.name;
     facts.fleet = plan.drones();
     for (const DroneId d : drones) {
-        facts.drones.push_back(
-            {drone_name(d.number(), plan.drones()), d.number(), plan.pads_m[d.value], plan.pads_m[d.value]});
+        facts.drones.push_back({drone_name(d.number(), plan.drones()), d.number(), plan.pads_m[d.value],
+                                plan.pads_m[d.value], plan.pad_of.empty() ? 0 : plan.pad_of[d.value].number()});
     }
     facts.origin = plan.origin;
     facts.limits = plan.limits;

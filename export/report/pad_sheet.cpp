@@ -26,9 +26,11 @@ std::string field(const std::string& text) {
 PadSheet pad_sheet(const OutgoingFacts& facts, const std::string& show_hash) {
     PadSheet sheet{facts.title, show_hash, facts.origin, {}};
     for (const OutgoingDrone& drone : facts.drones) {
-        const std::size_t before = drone.number - 1;  // whoever goes out: a drone keeps its link and its id
-        sheet.rows.push_back({drone.number, drone.number, drone.name, before / kVehiclesALink + 1,
-                              before % kVehiclesALink + 1, drone.home_m});
+        // Vehicles are numbered as the pads they stand on: whoever goes out, and whose part it flies, keeps link and
+        // id.
+        const std::size_t pad = drone.pad == 0 ? drone.number : drone.pad;
+        sheet.rows.push_back({pad, drone.number, drone.name, (pad - 1) / kVehiclesALink + 1,
+                              (pad - 1) % kVehiclesALink + 1, drone.home_m});
     }
     std::stable_sort(sheet.rows.begin(), sheet.rows.end(),
                      [](const PadSheet::Row& a, const PadSheet::Row& b) { return a.pad < b.pad; });

@@ -26,7 +26,7 @@ void Console::progress(std::string_view stage, double fraction) {
     const bool changed = stage_ != stage;
     stage_ = stage;
     if (!terminal_) {
-        if (changed) std::cerr << "aerogram: " << stage << "\n" << std::flush;
+        if (told_.insert(stage_).second) std::cerr << "aerogram: " << stage << "\n" << std::flush;
         return;
     }
     const auto now = std::chrono::steady_clock::now();

@@ -1,6 +1,7 @@
 #pragma once
 #include <chrono>
 #include <iosfwd>
+#include <set>
 #include <string>
 #include <string_view>
 
@@ -24,6 +25,7 @@ class Console {
     bool quiet_, terminal_;
     bool line_shown_ = false;
     std::string stage_;
+    std::set<std::string> told_;  ///< stages that have their line, where progress is not drawn
     std::chrono::steady_clock::time_point drawn_{};
 };
 

@@ -42,7 +42,9 @@ std::string finding_line(const Finding& finding) {
 std::string judgement_text(const Judgement& judgement, bool only_broken = false) {
     std::string text = "  " + judgement.format + ": " + (judgement.held() ? "holds" : "BROKEN") + " (limits from " +
                        judgement.limits_from + ")\n";
-    if (!judgement.separation_claimed) text += "    untimed waypoints: no separation is claimed\n";
+    if (!judgement.separation_claimed)
+        text += "    " + (judgement.timing.empty() ? "untimed" : judgement.timing) +
+                " waypoints: no separation is claimed\n";
     for (const Finding& finding : judgement.findings) {
         if (!finding.held || !only_broken) text += finding_line(finding);
     }

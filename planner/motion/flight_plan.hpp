@@ -34,10 +34,11 @@ struct FlightPlan {
     Limits limits;
     geo::Airspace airspace;
     double endurance_s = 900.0;
-    Points pads_m;               ///< one a drone: home and landing place
-    Points spare_pads_m;         ///< pads that no drone uses, numbered on from the last drone's
-    std::vector<Act> acts;       ///< in order, without gaps; acts[0].start_ms = 0
-    std::vector<Tracks> tracks;  ///< one a drone
+    Points pads_m;                ///< one a drone: home and landing place
+    std::vector<PadId> pad_of{};  ///< by drone; empty: drone 1 stands on pad 1, and so on
+    Points spare_pads_m;          ///< pads that no drone uses, numbered on from the last drone's
+    std::vector<Act> acts;        ///< in order, without gaps; acts[0].start_ms = 0
+    std::vector<Tracks> tracks;   ///< one a drone
     std::vector<PlannedKeyframe> keyframes;
     std::vector<Cue> cues;
     std::optional<std::filesystem::path> audio;
