@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <numeric>
 
 #include "export/bytes/files.hpp"
 #include "export/bytes/sha256.hpp"
@@ -27,7 +26,7 @@ std::string known_names() {
 }
 
 void write_format(ExportJob& job, const OutgoingShow& show, const Seal& seal, const fs::path& folder, const Run& run) {
-    if (!job.exported.skipped.empty() || run.stopped()) return;
+    if (run.stopped()) return;
     Result<std::vector<std::string>> written = job.format->write(show, seal, folder, run);
     if (!written) {
         job.error = written.error();
@@ -66,9 +65,10 @@ JudgeAgainst judge_against(const OutgoingFacts& facts) {
 }
 
 /// Reads a format's files from disk, notes their hashes, and judges what they say.
+/// @param closest  where another format has its smallest separation.
 Status check_format(ExportJob& job, const OutgoingFacts& facts, const Seal& seal, const fs::path& folder,
-                    const Run& run) {
-    if (!job.exported.skipped.empty() || run.stopped()) return Done{};
+                    const std::optional<LikelyClosest>& closest, const Run& run) {
+    if (run.stopped()) return Done{};
     std::vector<FileBytes> files;
     job.files.clear();
     for (const std::string& path : job.exported.files) {
@@ -79,11 +79,14 @@ Status check_format(ExportJob& job, const OutgoingFacts& facts, const Seal& seal
     }
     Result<RecordedShow> show = job.format->read(files);
     if (!show) return Error{ErrorCode::io, "what was written cannot be read back: " + show.error().message};
+    std::vector<FileBytes>().swap(files);  // large ones are not needed beside what they say
     const std::string wrong = wrong_identity(*show, facts, seal);
     if (!wrong.empty()) return Error{ErrorCode::io, "what was written as " + job.exported.name + " " + wrong};
     job.exported.rounding = show->rounding;
     state_missing_places(*show, homes_of(facts));
-    Result<Judgement> judgement = judge(*show, judge_against(facts), run);
+    JudgeAgainst against = judge_against(facts);
+    against.likely_closest = closest;
+    Result<Judgement> judgement = judge(*show, against, run);
     if (!judgement) return judgement.error();
     job.exported.judgement = std::move(*judgement);
     const bool claimed = job.exported.judgement.separation_claimed;
@@ -103,15 +106,19 @@ std::optional<Error> first_error(const std::vector<ExportJob>& jobs, const Run& 
     return std::nullopt;
 }
 
-/// Places in `jobs`, what takes longest first, so that no thread is left with it at the end.
-std::vector<std::size_t> longest_first(const std::vector<ExportJob>& jobs) {
-    constexpr std::array<std::string_view, 4> kLongest{"csv", "skyc", "trajectories", "preview"};
-    std::vector<std::size_t> places(jobs.size());
-    std::iota(places.begin(), places.end(), std::size_t{0});
-    std::ranges::stable_sort(places, {}, [&](std::size_t i) {
-        return std::ranges::find(kLongest, jobs[i].format->name) - kLongest.begin();
-    });
-    return places;
+/// The jobs that write, what takes longest first, so that no thread is left with it at the end; but before all others
+/// the first in the registry.
+std::vector<ExportJob*> in_order(std::vector<ExportJob>& jobs) {
+    constexpr std::array<std::string_view, 4> kLongest{"csv", "skyc", "vviz", "preview"};
+    std::vector<ExportJob*> order;
+    for (ExportJob& job : jobs)
+        if (job.exported.skipped.empty()) order.push_back(&job);
+    const auto place = [&](const ExportJob* job) {
+        return std::ranges::find(kLongest, job->format->name) - kLongest.begin();
+    };
+    if (!order.empty())
+        std::stable_sort(order.begin() + 1, order.end(), [&](auto a, auto b) { return place(a) < place(b); });
+    return order;
 }
 
 constexpr int kDigits = 4, kMostDigits = 17;
@@ -164,14 +171,20 @@ Result<std::vector<ExportJob>> chosen_jobs(const OutgoingShow& show, std::span<c
 std::optional<Error> write_and_check(std::vector<ExportJob>& jobs, const OutgoingShow& show, const Seal& seal,
                                      const fs::path& folder, const Run& run) {
     const Run inner{run.stop, {}, run.threads};
-    const std::vector<std::size_t> order = longest_first(jobs);
-    parallel_for(jobs.size(), run, "exporting", [&](std::size_t i) {
-        ExportJob& job = jobs[order[i]];
+    std::optional<LikelyClosest> closest;
+    const auto write_and_check_one = [&](ExportJob& job) {
         write_format(job, show, seal, folder, inner);
         if (job.error) return;
-        const Status checked = check_format(job, show.facts(), seal, folder, inner);
+        const Status checked = check_format(job, show.facts(), seal, folder, closest, inner);
         if (!checked) job.error = checked.error();
-    });
+    };
+    // The first format is judged alone: where it has its smallest separation the others are looked at first, as verify
+    // does it.
+    const std::vector<ExportJob*> order = in_order(jobs);
+    if (order.empty()) return std::nullopt;
+    write_and_check_one(*order.front());
+    closest = closest_of(order.front()->exported.judgement);
+    parallel_for(order.size() - 1, run, "exporting", [&](std::size_t i) { write_and_check_one(*order[i + 1]); });
     return first_error(jobs, run);
 }
 

@@ -104,6 +104,7 @@ class FolderCheck {
         if (judged && show->timed && !reference_ && !verified_.shows.empty()) {
             reference_ = std::move(*show);
             reference_separation_m_ = verified_.shows.back().min_separation_m;
+            reference_closest_ = closest_of(verified_.shows.back());
         }
         return judged;
     }
@@ -119,6 +120,7 @@ class FolderCheck {
             if (file.format == format.name && file.min_separation_m)
                 against.claimed_separation_m = file.min_separation_m;
         }
+        against.likely_closest = reference_closest_;
         auto judgement = judge(show, against, run_);
         if (!judgement) {
             if (judgement.error().code == ErrorCode::stopped) return judgement.error();
@@ -190,6 +192,7 @@ class FolderCheck {
     const Run& run_;
     std::optional<RecordedShow> reference_;  ///< the first timed format: trajectories, where present
     double reference_separation_m_ = 0.0;
+    std::optional<LikelyClosest> reference_closest_;
     Verified verified_;
 };
 

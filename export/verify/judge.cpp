@@ -34,9 +34,12 @@ Status judge_separation(const RecordedShow& show, const Rules& rules, const Judg
                         Judgement& judgement) {
     const double limit = rules.limits.min_separation_m;
     const double beyond = std::max(2.0 * limit, 1.01 * against.claimed_separation_m.value_or(0.0));
-    auto found = verify_separation(show, rules.limits.downwash, beyond, run);
+    SeparationSearch search;
+    search.likely_closest = against.likely_closest;
+    auto found = verify_separation(show, rules.limits.downwash, beyond, run, search);
     if (found && found->lower_bound_m < limit && found->attained_m >= limit) {  // too close to the limit to tell
-        found = verify_separation(show, rules.limits.downwash, beyond, run, {.resolved_m = 0.5 * kNumeric});
+        search.resolved_m = 0.5 * kNumeric;
+        found = verify_separation(show, rules.limits.downwash, beyond, run, search);
     }
     if (!found) return found.error();
     judgement.min_separation_m = found->lower_bound_m;
@@ -72,6 +75,12 @@ Result<Judgement> judge_waypoints(const RecordedShow& show, Rules rules, const R
 
 bool Judgement::held() const {
     return problems.empty() && std::ranges::all_of(findings, &Finding::held);
+}
+
+std::optional<LikelyClosest> closest_of(const Judgement& judgement) {
+    const auto found = std::ranges::find(judgement.findings, "separation", &Finding::rule);
+    if (found == judgement.findings.end() || found->drones.size() != 2 || !found->time_s) return std::nullopt;
+    return LikelyClosest{found->drones[0] - 1, found->drones[1] - 1, *found->time_s};
 }
 
 Result<Judgement> judge(const RecordedShow& show, const JudgeAgainst& against, const Run& run) {

@@ -36,6 +36,15 @@ struct Judgement {
     [[nodiscard]] bool held() const;
 };
 
+/// Two drones and an instant at which they are likely close: where another file of the show has its smallest distance.
+struct LikelyClosest {
+    std::size_t first = 0, second = 0;  ///< 0-based
+    double time_s = 0.0;
+};
+
+/// Where a judged show has its smallest separation; absent when no two drones are near.
+[[nodiscard]] std::optional<LikelyClosest> closest_of(const Judgement& judgement);
+
 /// What a show is judged against where it says nothing itself.
 struct JudgeAgainst {
     std::optional<Limits> limits;  ///< neither here nor in the show: the standard preset
@@ -44,6 +53,8 @@ struct JudgeAgainst {
     std::optional<double> endurance_s;
     std::string limits_from = "preset standard";  ///< where `limits` came from, for people
     std::optional<double> claimed_separation_m;   ///< separation is resolved at least up to here
+    std::optional<LikelyClosest>
+        likely_closest{};  ///< makes the search faster when it is right, never changes its bound
 };
 /// Judges a show exactly, in continuous time, under the file's own interpolation rule. A rule holds when its worst
 /// value is within limit and allowance; allowances are the show's stated rounding, and separation has none; altitudes
@@ -68,6 +79,7 @@ Result<Judgement> judge(const RecordedShow& show, const JudgeAgainst& against, c
 struct SeparationSearch {
     double begin_s = -std::numeric_limits<double>::infinity(), end_s = std::numeric_limits<double>::infinity();
     double resolved_m = 1e-5;
+    std::optional<LikelyClosest> likely_closest{};  ///< looked at first: who is farther apart is soon passed over
 };
 /// lower_bound_m <= truth <= attained_m, the latter by this pair at this time.
 struct VerifiedSeparation {

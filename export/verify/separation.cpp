@@ -104,6 +104,30 @@ bool clearly_beyond(std::span<const Vec3> a, std::span<const Vec3> b, double dis
     return least > 0.0 && least * least >= distance_m * distance_m * glm::dot(along, along);
 }
 
+Stance stance_at(const Timelines& shows, std::size_t drone, double t_s) {
+    for (const Stay& stay : shows.stays[drone]) {
+        if (t_s >= stay.begin_s && t_s <= stay.end_s) return stay.stance;
+    }
+    return Stance::flying;
+}
+
+/// The distance that two drones have at an instant of [begin_s, end_s], unless they are excused or too far apart to be
+/// of interest: what every part of the search may start from.
+Best start_of(const RecordedShow& show, const Timelines& shows, double begin_s, double end_s, double beyond_m,
+              const SeparationSearch& search) {
+    Best best{.lower_m = beyond_m, .resolved_m = search.resolved_m};
+    if (!search.likely_closest) return best;
+    const auto [i, j, t_s] = *search.likely_closest;
+    if (i == j || std::max(i, j) >= show.drones.size() || !(t_s >= begin_s && t_s <= end_s)) return best;
+    if (shows.excuse(i, stance_at(shows, i, t_s), j, stance_at(shows, j, t_s))) return best;
+    Vec3 apart = position_at(show.drones[i], t_s) - position_at(show.drones[j], t_s);
+    apart.z /= shows.downwash;
+    if (glm::length(apart) >= beyond_m) return best;
+    best.attain(glm::length(apart), t_s, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j));
+    best.lower_m = best.attained_m;
+    return best;
+}
+
 /// The workspace of one part of the show, and what was found there.
 struct Search {
     const Timelines& shows;
@@ -161,10 +185,11 @@ Result<VerifiedSeparation> verify_separation(const RecordedShow& show, double do
     if (!(finish_s > begin_s)) return result;
     const std::vector<double> times_s = slab_times(shows, begin_s, finish_s, kTravelShare * beyond_m);
     const std::size_t slabs = times_s.size() - 1, parts = (slabs + kSlabsAPart - 1) / kSlabsAPart;
+    const Best start = start_of(show, shows, begin_s, finish_s, beyond_m, search);
     std::vector<Best> found(parts);
     parallel_for(parts, run, "verifying separation", [&](std::size_t part) {
         const std::size_t first = part * kSlabsAPart, last = std::min(slabs, first + kSlabsAPart);
-        Search part_search{shows, run, {.lower_m = beyond_m, .resolved_m = search.resolved_m}, {}, {}};
+        Search part_search{shows, run, start, {}, {}};
         part_search.search(std::span(times_s).subspan(first, last - first + 1));
         found[part] = part_search.best;
     });
