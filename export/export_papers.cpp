@@ -44,7 +44,7 @@ Result<Paper> report_paper(const OutgoingShow& show, const Judgement& judgement,
     if (!report) return report.error();
     auto pdf = report_pdf(*report);
     if (!pdf) return pdf.error();
-    Paper paper{"report", {}};
+    Paper paper{"report", {}, report->warnings};
     paper.files.push_back({kReportFiles[0], report_json(*report)});
     paper.files.push_back({kReportFiles[1], report_html(*report)});
     paper.files.push_back({kReportFiles[2], std::move(*pdf)});
@@ -52,10 +52,10 @@ Result<Paper> report_paper(const OutgoingShow& show, const Judgement& judgement,
 }
 
 Result<Paper> pads_paper(const OutgoingShow& show, const Seal& seal) {
-    const PadSheet sheet = pad_sheet(show.facts(), seal.show_hash);
+    const PadSheet sheet = pad_sheet(show.facts(), seal.show_hash, seal.certified);
     auto pdf = pads_pdf(sheet);
     if (!pdf) return pdf.error();
-    return Paper{"pads", {{"pads.csv", pads_csv(sheet)}, {"pads.pdf", std::move(*pdf)}}};
+    return Paper{"pads", {{"pads.csv", pads_csv(sheet)}, {"pads.pdf", std::move(*pdf)}}, {}};
 }
 
 std::vector<std::string> reasons_of(const planner::FlightPlan& plan) {
@@ -77,17 +77,26 @@ fs::path refused_folder(const fs::path& destination) {
 }
 
 Status write_refused_report(const planner::FlightPlan& plan, const fs::path& destination,
-                            std::vector<std::string> reasons, const Run& run) {
+                            std::vector<std::string> reasons, const std::vector<ExportedFormat>& formats,
+                            const Run& run) {
     const Seal seal{show_hash(plan), false};
     const auto judgement = judged_exactly(plan, seal, run);
     if (!judgement) return judgement.error();
-    const auto paper = report_paper(PlannedShow(plan), *judgement, seal, {}, std::move(reasons), run);
+    const auto paper = report_paper(PlannedShow(plan), *judgement, seal, formats, std::move(reasons), run);
     if (!paper) return paper.error();
     for (const FileBytes& file : paper->files) {
         const Status written = replace_file(refused_folder(destination) / file.path, file.bytes);
         if (!written) return written.error();
     }
     return Done{};
+}
+
+std::string refused_words(const fs::path& destination) {
+    std::string words = "report: " + (refused_folder(destination) / "report.html").string();
+    std::error_code failure;
+    if (fs::exists(destination / kManifestName, failure))
+        words += "\n  " + destination.string() + " still holds the show that was exported there before";
+    return words;
 }
 
 void remove_refused_report(const fs::path& destination) {

@@ -14,6 +14,7 @@ namespace aerogram::exporter {
 struct Paper {
     std::string name;  ///< "report", "pads" (kPapers)
     std::vector<FileBytes> files;
+    std::vector<std::string> warnings{};  ///< Report::warnings
 };
 
 /// report.json, report.html and report.pdf.
@@ -34,9 +35,13 @@ Result<Judgement> judged_exactly(const planner::FlightPlan& plan, const Seal& se
 /// The folder of a refused show's report: "out/x-refused" beside "out/x".
 [[nodiscard]] std::filesystem::path refused_folder(const std::filesystem::path& destination);
 /// Writes the report of a show that is refused into refused_folder(destination), each file whole or not at all.
-/// @param reasons  why it is refused. Errors: io; stopped.
+/// @param reasons  why it is refused. @param formats  what was written and found to break a limit, if that is why.
+/// Errors: io; stopped.
 Status write_refused_report(const planner::FlightPlan& plan, const std::filesystem::path& destination,
-                            std::vector<std::string> reasons, const Run& run);
+                            std::vector<std::string> reasons, const std::vector<ExportedFormat>& formats,
+                            const Run& run);
+/// Where the report of a refused show is, and what lies at its destination, in words.
+[[nodiscard]] std::string refused_words(const std::filesystem::path& destination);
 /// Takes such a report away again: the show that is there now is not refused. Files of others stay.
 void remove_refused_report(const std::filesystem::path& destination);
 

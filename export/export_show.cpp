@@ -87,7 +87,7 @@ Result<std::vector<Paper>> papers_of(const planner::FlightPlan& plan, const Outg
                                      const std::vector<ExportJob>& jobs, const ExportOptions& options, const Run& run) {
     std::vector<Paper> papers;
     const std::string certificate = certificate_json(plan, seal.show_hash, seal.certified);
-    papers.push_back({"certificate", {{std::string(kCertificateName), certificate}}});
+    papers.push_back({"certificate", {{std::string(kCertificateName), certificate}}, {}});
     if (wanted(options, "pads")) {
         auto pads = pads_paper(show, seal);
         if (!pads) return pads.error();
@@ -128,14 +128,17 @@ Status seal_folder(StagedFolder& folder, const std::vector<ExportJob>& jobs, con
 
 /// The refusal, with a report beside where the show would have gone.
 Error refused(const planner::FlightPlan& plan, const fs::path& destination, const std::string& why,
-              const std::vector<std::string>& lines, const Run& run) {
+              const std::vector<ExportJob>& jobs, const Run& run) {
+    const std::vector<std::string> lines = complaints(jobs);
     std::vector<std::string> reasons = reasons_of(plan);
     reasons.insert(reasons.end(), lines.begin(), lines.end());
-    const Status told = write_refused_report(plan, destination, reasons, run);
+    std::vector<ExportedFormat> formats;
+    for (const ExportJob& job : jobs) formats.push_back(job.exported);
+    const Status told = write_refused_report(plan, destination, reasons, formats, run);
     if (!told) return told.error();
     std::string message = why;
     for (const std::string& line : lines) message += "\n" + line;
-    return {ErrorCode::infeasible, message + "\nreport: " + (refused_folder(destination) / "report.html").string()};
+    return {ErrorCode::infeasible, message + "\n  " + refused_words(destination)};
 }
 
 }  // namespace
@@ -144,6 +147,8 @@ Result<ExportedShow> export_show(const planner::FlightPlan& plan, const fs::path
                                  const ExportOptions& options, const Run& run) {
     const std::string unsuited = trajectories_unsuited(plan);
     if (!unsuited.empty()) return invalid("this show cannot be exported: " + unsuited);
+    if (!options.drones.empty() && std::ranges::find(options.formats, "report") != options.formats.end())
+        return invalid("report: is of the whole show; leave out the drones");
     const PlannedShow show = options.drones.empty() ? PlannedShow(plan) : PlannedShow(plan, options.drones);
     Result<std::vector<ExportJob>> jobs = chosen_jobs(show, options.formats, run);
     if (!jobs) return jobs.error();
@@ -158,7 +163,7 @@ Result<ExportedShow> export_show(const planner::FlightPlan& plan, const fs::path
     if (seal.certified) leave_out_broken_waypoints(*jobs, options.formats, folder->path());
     const std::vector<std::string> wrong = complaints(*jobs);
     if (!wrong.empty() && !options.best_effort)
-        return refused(plan, destination, "the written files break limits that the plan holds:", wrong, run);
+        return refused(plan, destination, "the written files break limits that the plan holds:", *jobs, run);
     if (!wrong.empty() && seal.certified) {  // the files must say so: write them again
         seal.certified = false;
         if (const auto error = write_and_check(*jobs, show, seal, folder->path(), run)) return *error;
@@ -168,7 +173,9 @@ Result<ExportedShow> export_show(const planner::FlightPlan& plan, const fs::path
     const Status sealed = seal_folder(*folder, *jobs, show, seal, *papers, run);
     if (!sealed) return sealed.error();
     remove_refused_report(destination);
-    ExportedShow result{seal.show_hash, seal.certified, {}};
+    ExportedShow result{seal.show_hash, seal.certified, {}, {}, wrong};
+    for (const Paper& paper : *papers)
+        result.warnings.insert(result.warnings.end(), paper.warnings.begin(), paper.warnings.end());
     for (ExportJob& job : *jobs) result.formats.push_back(std::move(job.exported));
     return result;
 }

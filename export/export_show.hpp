@@ -24,6 +24,8 @@ struct ExportedShow {
     std::string show_hash;
     bool certified = false;
     std::vector<ExportedFormat> formats;
+    std::vector<std::string> warnings;  ///< what the report warns of
+    std::vector<std::string> broken;    ///< limits that written files break (best_effort)
 };
 
 struct ExportOptions {

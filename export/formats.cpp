@@ -1,4 +1,5 @@
 #include "export/formats.hpp"
+#include "export/bytes/files.hpp"
 
 #include <algorithm>
 #include <array>
@@ -35,6 +36,17 @@ const Format* find_format(std::string_view name) {
 const Format* recognise(std::string_view path, std::string_view bytes) {
     const auto found = std::ranges::find_if(formats(), [&](const Format& f) { return f.recognises(path, bytes); });
     return found == formats().end() ? nullptr : &*found;
+}
+
+Status add_companion(const Format& format, const std::filesystem::path& folder, std::vector<FileBytes>& files) {
+    constexpr const char* kName = "show.json";
+    const bool there = std::ranges::any_of(files, [&](const FileBytes& file) { return file.path.ends_with(kName); });
+    std::error_code failure;
+    if (!format.per_drone || there || !std::filesystem::is_regular_file(folder / kName, failure)) return Done{};
+    auto bytes = read_file(folder / kName);
+    if (!bytes) return bytes.error();
+    if (format.recognises(kName, *bytes)) files.push_back({kName, std::move(*bytes)});
+    return Done{};
 }
 
 }  // namespace aerogram::exporter

@@ -32,7 +32,7 @@ Error unknown(const fs::path& path) {
 
 void complete(OpenedShow& opened, const Manifest& manifest, const fs::path& folder) {
     RecordedShow& show = opened.show;
-    const bool whole = show.limits && show.airspace && show.origin && show.endurance_s && show.show_hash;
+    const bool whole = show.limits && show.airspace && show.origin && show.endurance_s;
     Points pads_m;
     for (const ManifestDrone& drone : manifest.drones) pads_m.push_back(drone.pad_m);
     if (pads_m.size() == show.drones.size()) {
@@ -50,8 +50,6 @@ void complete(OpenedShow& opened, const Manifest& manifest, const fs::path& fold
     if (!show.airspace) show.airspace = manifest.airspace;
     if (!show.origin) show.origin = manifest.origin;
     if (!show.endurance_s) show.endurance_s = manifest.endurance_s;
-    if (!show.show_hash) show.show_hash = manifest.show_hash;
-    if (!show.certified) show.certified = manifest.certified;
     if (show.title.empty()) show.title = manifest.show_name;
     opened.completed_from = (folder / kManifestName).string();
 }
@@ -89,7 +87,9 @@ Result<OpenedShow> open_file(const fs::path& path) {
     const Format* format = recognise(name, *bytes);
     if (format == nullptr) return unknown(path);
     const auto around = folder_around(path, *bytes);
-    auto opened = open_files(*format, {{name, std::move(*bytes)}}, path);
+    std::vector<FileBytes> files{{name, std::move(*bytes)}};
+    if (const Status added = add_companion(*format, path.parent_path(), files); !added) return added.error();
+    auto opened = open_files(*format, files, path);
     if (!opened) return opened;
     opened->files = {path};
     if (around) complete(*opened, around->second, around->first);

@@ -12,6 +12,7 @@ namespace aerogram::exporter {
 namespace {
 
 constexpr double kNumeric = 1e-6;
+constexpr double kFence_m = 0.01;  ///< corners in eight decimals of a degree, and the bend of the ground
 constexpr double kWaitRounding_s = 0.5, kWaitStep_s = 0.05;
 constexpr double kResolved_m = 1e-4;  ///< of two separations: SeparationSearch::resolved_m and a margin
 constexpr double kSampleEvery_s = 0.25;
@@ -121,6 +122,22 @@ Problems drones_disagree(const RecordedShow& show, const Manifest& manifest) {
     return {};
 }
 
+/// Whether a fence on the globe is the manifest's, corner by corner.
+bool is_fence_of(const GeodeticFence& fence, const Manifest& manifest) {
+    const geo::ShowFrame frame(manifest.origin);
+    const auto same = [&](const GeodeticFence::Outline& held, const geo::Polygon& exact) {
+        return std::ranges::equal(held, exact, [&](const geo::Geodetic& corner, const Vec2& p) {
+            const geo::Geodetic place = frame.to_geodetic({p.x, p.y, 0.0});
+            const Vec3 off = frame.to_show({corner.latitude_deg, corner.longitude_deg, place.height_m}) - Vec3(p, 0.0);
+            return std::hypot(off.x, off.y) <= kFence_m;
+        });
+    };
+    const geo::Airspace& exact = manifest.airspace;
+    const std::size_t inside = exact.geofence_m.empty() ? 0 : 1;
+    return fence.inside.size() == inside && (inside == 0 || same(fence.inside.front(), exact.geofence_m)) &&
+           std::ranges::equal(fence.outside, exact.audience_m, same);
+}
+
 /// The way round from one angle to another, degrees, 0..180.
 double turn_deg(double a_deg, double b_deg) {
     return std::abs(std::remainder(a_deg - b_deg, 360.0));
@@ -218,6 +235,7 @@ Problems disagreement_with_manifest(const RecordedShow& show, const Manifest& ma
     require(!show.certified || *show.certified == manifest.certified, "the certified mark");
     const auto format = std::ranges::find(manifest.formats, show.format, &ManifestFormat::name);
     require(format != manifest.formats.end() && equal(format->rounding, show.rounding), "the stated rounding");
+    require(!show.fence || is_fence_of(*show.fence, manifest), "the fence");
     if (show.format != "trajectories") {
         const std::string off = show.origin ? origin_off(*show.origin, manifest.origin) : std::string();
         if (!off.empty()) problems.push_back(off);

@@ -39,8 +39,11 @@ void complete_from(const Manifest& manifest, RecordedShow& show);
 [[nodiscard]] Problems disagreement_of_separations(const RecordedShow& reference, double reference_m,
                                                    const RecordedShow& show, double separation_m, const Limits& limits);
 
-/// report.json against the manifest: hash, certified mark, drones and the smallest separation. Other papers have
-/// nothing that can be read back.
+/// Lights of a format that keeps them against the exact plan's, where a lamp is steady; the first that differs.
+[[nodiscard]] Problems disagreement_of_lights(const RecordedShow& reference, const RecordedShow& show);
+
+/// A paper against the manifest: report.json's hash, certified mark, drones and smallest separation; the hash on
+/// report.html; the names and places of pads.csv. PDFs have nothing that is read back.
 [[nodiscard]] Problems disagreement_of_paper(const FileBytes& file, const Manifest& manifest);
 
 /// The certificate against the manifest, and each act's claims against what `trajectories` really do then: separation

@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 
+#include "export/bytes/decimal.hpp"
 #include "export/bytes/files.hpp"
 #include "export/bytes/sha256.hpp"
 #include "export/formats.hpp"
@@ -46,13 +47,28 @@ std::optional<Surrounding> manifest_around(const fs::path& path, const std::stri
     return std::nullopt;
 }
 
-Result<Judgement> verify_show(const LooseShow& loose, const Run& run) {
+/// Findings call drones by their places in the file; people by the numbers in their names, where all have one.
+void name_drones(Judgement& judgement, const RecordedShow& show) {
+    std::vector<std::size_t> numbers;
+    for (const RecordedDrone& drone : show.drones) {
+        const std::size_t digits = drone.name.find_last_not_of("0123456789") + 1;
+        const auto number = parse_whole(std::string_view(drone.name).substr(digits), 1, 10'000'000);
+        if (!number) return;
+        numbers.push_back(static_cast<std::size_t>(*number));
+    }
+    for (Finding& finding : judgement.findings)
+        for (std::size_t& drone : finding.drones) drone = numbers[drone - 1];
+}
+
+Result<Judgement> verify_show(LooseShow& loose, const Run& run) {
     const std::string name =
         loose.paths.size() == 1 ? loose.paths.front().string() : (loose.paths.front().parent_path() / "").string();
     const auto named = [&](const Error& error) {
         return error.code == ErrorCode::stopped ? error : Error{error.code, name + ": " + error.message};
     };
     const auto around = manifest_around(loose.paths.front(), loose.files.front().bytes);
+    if (const Status added = add_companion(*loose.format, loose.paths.front().parent_path(), loose.files); !added)
+        return added.error();
     auto show = loose.format->read(loose.files);
     if (!show) return named(show.error());
     if (around) complete_from(around->manifest, *show);
@@ -63,6 +79,9 @@ Result<Judgement> verify_show(const LooseShow& loose, const Run& run) {
         judgement->problems.emplace_back("its SHA-256 differs from the manifest beside it");
     if (!show->certified.value_or(true))
         judgement->problems.emplace_back("the file says that this show is not certified");
+    if (around && !around->manifest.certified)
+        judgement->problems.emplace_back("the manifest beside it says that this show is not certified");
+    name_drones(*judgement, *show);
     return judgement;
 }
 

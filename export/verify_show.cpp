@@ -99,6 +99,7 @@ class FolderCheck {
         }
         if (reference_) {
             problems(path, disagreement_of_shows(*reference_, *show, manifest_.limits, manifest_.origin));
+            problems(path, disagreement_of_lights(*reference_, *show));
         }
         Status judged = judge_against_manifest(*show, *format, path);
         if (judged && show->timed && !reference_ && !verified_.shows.empty()) {

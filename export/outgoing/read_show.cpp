@@ -222,7 +222,10 @@ Flight ReadShow::flight(std::size_t drone) const {
 }
 
 Fitted ReadShow::fitted(std::size_t drone) const {
-    return piecewise_fit(flight(drone), facts_.duration_ms, facts_.limits);
+    Fitted fitted = piecewise_fit(flight(drone), facts_.duration_ms, facts_.limits);
+    // Speeds of a file of straight lines are those of its chords: a smooth curve beside them has others, and should.
+    if (!show_.rounding.has_acceleration) fitted.error.speed_mps = fitted.error.acceleration_mps2 = 0.0;
+    return fitted;
 }
 
 }  // namespace aerogram::exporter

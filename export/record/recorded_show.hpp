@@ -56,6 +56,13 @@ struct Rounding {
     double time_s = 0.0;  ///< each stored time is within this of the exact one
 };
 
+/// A fence as a file tells it on the globe, where it has no frame to put an Airspace into. Heights mean nothing.
+struct GeodeticFence {
+    using Outline = std::vector<geo::Geodetic>;
+    std::vector<Outline> inside;   ///< nobody may leave these
+    std::vector<Outline> outside;  ///< nobody may enter these
+};
+
 struct RecordedShow {
     std::string format;  ///< registry name, "skyc"
     std::string title;
@@ -64,6 +71,7 @@ struct RecordedShow {
     std::optional<geo::ShowOrigin> origin;
     std::optional<Limits> limits;
     std::optional<geo::Airspace> airspace;
+    std::optional<GeodeticFence> fence;  ///< untimed formats: judged where no airspace is known
     std::optional<double> endurance_s;
     bool timed = true;   ///< false: waypoints only, no separation can be claimed
     std::string timing;  ///< where it differs from file to file of a format ("absolute"); empty: the format's

@@ -124,20 +124,22 @@ std::vector<Fact> facts_of(const Report& report) {
     return facts;
 }
 
-/// The closest approach of any emergency, and which.
+/// The closest approach of each emergency at its worst second.
 std::string emergencies_text(const Report& report) {
-    const ReportApproach *one = nullptr, *all = nullptr;
-    const auto take = [](const ReportApproach*& closest, const ReportApproach& a) {
-        if (a.distance_m && (closest == nullptr || *a.distance_m < *closest->distance_m)) closest = &a;
+    if (report.emergencies.empty())
+        return report.limits.plane ? "not computed: planes cannot hold their place" : "none computed";
+    const auto closest = [&](ReportApproach ReportEmergency::*which) {
+        std::optional<double> least_m;
+        for (const ReportEmergency& e : report.emergencies) {
+            if ((e.*which).distance_m)
+                least_m = std::min(least_m.value_or(*(e.*which).distance_m), *(e.*which).distance_m);
+        }
+        return least_m ? with_unit(*least_m, 2, "m") : std::string("–");
     };
-    for (const ReportEmergency& e : report.emergencies) {
-        for (const ReportApproach* a : {&e.one_holds, &e.one_lands, &e.one_returns}) take(one, *a);
-        for (const ReportApproach* a : {&e.all_hold, &e.all_land, &e.all_return}) take(all, *a);
-    }
-    const auto closest = [](const ReportApproach* a) {
-        return a == nullptr ? "nobody to come close to" : with_unit(*a->distance_m, 2, "m");
-    };
-    return "closest approach at the worst second: one drone leaves " + closest(one) + ", all leave " + closest(all);
+    return "closest at the worst second: one holds " + closest(&ReportEmergency::one_holds) + ", lands " +
+           closest(&ReportEmergency::one_lands) + ", returns " + closest(&ReportEmergency::one_returns) +
+           "; all hold " + closest(&ReportEmergency::all_hold) + ", land " + closest(&ReportEmergency::all_land) +
+           ", return " + closest(&ReportEmergency::all_return);
 }
 
 std::string held_text(std::size_t held, std::size_t of) {
@@ -154,29 +156,48 @@ std::vector<Fact> findings_of(const Report& report) {
     for (const ReportFormat& f : report.formats)
         if (f.skipped.empty()) written.push_back(f);
     const std::size_t skipped = report.formats.size() - written.size();
+    const geo::Airspace& around = report.airspace;
+    const bool nothing_around = around.geofence_m.empty() && around.audience_m.empty() && around.obstacles.empty();
     return {{"Rules", held(report.rules)},
             {"Exported formats", held(written) + (skipped > 0 ? ", " + count_text(skipped) + " not written" : "")},
             {"Energy", report.energy.held ? "the reserve is kept by every drone" : "the reserve is NOT kept"},
             {"Emergencies", emergencies_text(report)},
-            {"Heading or origin wrong", held(report.sensitivities) + " (up to ±7° and ±5 m)"},
+            {"Heading or origin wrong", nothing_around ? "nothing to hold: no fence, audience or obstacle is stated"
+                                                       : held(report.sensitivities) + " (up to ±7° and ±5 m)"},
             {"Lights",
              report.lights.warning ? "WARNING: flashes more than three times a second" : "no flash-rate warning"}};
 }
 
 }  // namespace
 
+/// Which files a certificate does not speak of.
+std::string not_covered(const Report& report) {
+    std::string names;
+    for (const ReportFormat& format : report.formats) {
+        if (report.drones > 1 && format.skipped.empty() && !format.min_separation_m)
+            names += (names.empty() ? "" : ", ") + format.name;
+    }
+    return names.empty() ? names
+                         : " No separation is claimed for vehicles that fly the waypoint files (" + names + ").";
+}
+
 Cover cover_of(const Report& report) {
     Cover cover;
     cover.title = report.title;
     cover.certified = report.certified;
-    cover.verdict = report.certified ? "CERTIFIED" : "NOT CERTIFIED – DO NOT FLY";
+    const bool warned = !report.warnings.empty();
+    cover.verdict = !report.certified ? "NOT CERTIFIED – DO NOT FLY"
+                    : warned          ? "CERTIFIED, WITH WARNINGS"
+                                      : "CERTIFIED";
     cover.reasons = report.certified ? std::vector<std::string>{} : report.reasons;
+    for (const std::string& warning : report.warnings) cover.reasons.push_back("Warning: " + warning);
     if (!report.certified && cover.reasons.empty()) cover.reasons.emplace_back("no reason was given");
     cover.statement =
         report.certified
-            ? "Every rule of this report holds for every drone at every instant. This is said of the files "
-              "that carry the show hash below, placed and flown as stated, and of no others."
-            : "This show must not be flown. The numbers below are what was found.";
+            ? "Every limit of flight holds for every drone at every instant. This is said of the files of the show "
+              "with the hash below, placed and flown as stated, and of no others." +
+                  not_covered(report)
+            : std::string("This show must not be flown. The numbers below are what was found.");
     for (std::size_t at = 0; at < report.show_hash.size(); at += 32)
         cover.hash.push_back(grouped_hash(report.show_hash, at, at + 32));
     if (cover.hash.empty()) cover.hash.emplace_back("none");

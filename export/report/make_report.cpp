@@ -34,9 +34,16 @@ std::vector<double> instants(double duration_s, double step_s) {
 std::string profile(const OutgoingFacts& facts) {
     const Limits& l = facts.limits;
     std::array<char, 300> text{};
-    std::snprintf(text.data(), text.size(), ", %s, %.2f m separation, %.3g m/s across, %.3g up, %.3g down, %.3g m/s²",
-                  l.plane ? "planes" : "copters", l.min_separation_m, l.speed_horizontal_mps, l.speed_up_mps,
-                  l.speed_down_mps, l.acceleration_mps2);
+    if (l.plane) {
+        std::snprintf(text.data(), text.size(),
+                      ", planes, %.2f m separation, %.3g to %.3g m/s, %.3g up, %.3g down, %.3g m/s²",
+                      l.min_separation_m, l.plane->airspeed_min_mps, l.plane->airspeed_max_mps, l.plane->climb_mps,
+                      l.plane->sink_mps, l.acceleration_mps2);
+    } else {
+        std::snprintf(
+            text.data(), text.size(), ", copters, %.2f m separation, %.3g m/s across, %.3g up, %.3g down, %.3g m/s²",
+            l.min_separation_m, l.speed_horizontal_mps, l.speed_up_mps, l.speed_down_mps, l.acceleration_mps2);
+    }
     return std::to_string(facts.drones.size()) + (facts.drones.size() == 1 ? " drone" : " drones") + text.data();
 }
 
@@ -114,6 +121,7 @@ Result<Report> make_report(const ReportInput& input, const Run& run) {
     if (run.stopped()) return stopped_error();
     report_emergencies(input.show, all, run, report);
     report_rules(input, report);
+    report_warnings(report);
     if (run.stopped()) return stopped_error();
     return report;
 }

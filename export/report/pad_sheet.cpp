@@ -23,8 +23,8 @@ std::string field(const std::string& text) {
 
 }  // namespace
 
-PadSheet pad_sheet(const OutgoingFacts& facts, const std::string& show_hash) {
-    PadSheet sheet{facts.title, show_hash, facts.origin, {}};
+PadSheet pad_sheet(const OutgoingFacts& facts, const std::string& show_hash, bool certified) {
+    PadSheet sheet{facts.title, show_hash, facts.origin, certified, facts.fleet, {}};
     for (const OutgoingDrone& drone : facts.drones) {
         // Vehicles are numbered as the pads they stand on: whoever goes out, and whose part it flies, keeps link and
         // id.

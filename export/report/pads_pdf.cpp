@@ -53,7 +53,8 @@ Table rows_of(const PadSheet& sheet) {
 std::vector<Fact> facts_of(const PadSheet& sheet) {
     std::size_t links = 0;
     for (const PadSheet::Row& row : sheet.rows) links = std::max(links, row.link);
-    std::vector<Fact> facts{{"Drones", count_text(sheet.rows.size())},
+    std::vector<Fact> facts{{"Drones", count_text(sheet.rows.size()) +
+                                           (sheet.rows.size() < sheet.fleet ? " of " + count_text(sheet.fleet) : "")},
                             {"Links", count_text(links) + ", system ids 1 to 250 on each"}};
     if (sheet.origin) {
         facts.push_back({"Origin", origin_text(*sheet.origin)});
@@ -71,6 +72,7 @@ Result<std::string> pads_pdf(const PadSheet& sheet) {
     PageEdges edges;
     edges.title = sheet.title;
     edges.right = "hash " + short_hash(sheet.show_hash) + " · pad sheet";
+    if (!sheet.certified) edges.banner = "NOT CERTIFIED – DO NOT FLY";
     edges.foot = "Pad sheet: put each drone on its pad and tick it off";
     const Table table = rows_of(sheet);
     return drawn_pages("Pad sheet: " + sheet.title, edges, [&](PageFlow& flow) {

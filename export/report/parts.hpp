@@ -9,6 +9,8 @@ namespace aerogram::exporter {
 
 /// Report::rules: the judgement's, then reserve and lights of the report itself, which must be there already.
 void report_rules(const ReportInput& input, Report& report);
+/// Report::warnings, from all that was computed before.
+void report_warnings(Report& report);
 
 /// nearest_m and histogram.
 void report_nearest(const Survey& all, const Run& run, Report& report);

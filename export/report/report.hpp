@@ -104,9 +104,10 @@ struct ReportFormat {
 struct Report {
     // Page 1.
     std::string title, show_hash, program, version;
-    bool certified = false;            ///< false: every page says so
-    std::vector<std::string> reasons;  ///< why not; empty when certified
-    std::string profile;               ///< "10 drones, copters, 1.5 m separation, ..."
+    bool certified = false;               ///< false: every page says so
+    std::vector<std::string> reasons;     ///< why not; empty when certified
+    std::vector<std::string> warnings{};  ///< what the pilot must weigh: reserve, flashes, volumes over people
+    std::string profile;                  ///< "10 drones, copters, 1.5 m separation, ..."
     std::size_t drones = 0;
     double duration_s = 0.0, wind_mps = 0.0, endurance_s = 0.0;
     std::optional<geo::ShowOrigin> origin;

@@ -37,7 +37,8 @@ Section glossary_section(const Report&) {
     add("Place", "Show frame, metres: x to the right and y away from the audience, z above the origin's ground.");
     add("Altitude", "Height above the drone's own home.");
     add("Show hash",
-        "SHA-256 over geometry, origin, heading, fence, limits and lights. The same digits stand in every file of the "
+        "SHA-256 over geometry, origin, heading, fence, limits and lights. The same digits stand in every file that "
+        "can hold them, and in the manifest, for the "
         "show; other digits mean another show.");
     add("Flight volume", "Hull of every place that a drone is over, up to the highest place.");
     add("Contingency volume", "Where a drone may come that has left the flight volume before it is stopped.");

@@ -18,6 +18,8 @@ Result<std::string> report_pdf(const Report& report);
 struct PadSheet {
     std::string title, show_hash;
     std::optional<geo::ShowOrigin> origin;
+    bool certified = true;  ///< false: every page says so
+    std::size_t fleet = 0;  ///< drones of the whole show
     struct Row {
         std::size_t pad = 0, drone = 0;       ///< numbers
         std::string name;                     ///< "drone-017"
@@ -26,7 +28,7 @@ struct PadSheet {
     };
     std::vector<Row> rows;
 };
-[[nodiscard]] PadSheet pad_sheet(const OutgoingFacts& facts, const std::string& show_hash);
+[[nodiscard]] PadSheet pad_sheet(const OutgoingFacts& facts, const std::string& show_hash, bool certified);
 /// Header `pad,drone,name,link,system_id,x_m,y_m,z_m,latitude_deg,longitude_deg,height_m`.
 std::string pads_csv(const PadSheet& sheet);
 /// A4 pages: the rows, and a plan of the pads with their numbers. Errors: as report_pdf.

@@ -196,6 +196,7 @@ Json page_one(const Report& r) {
             {"version", r.version},
             {"certified", r.certified},
             {"reasons", r.reasons},
+            {"warnings", r.warnings},
             {"profile", r.profile},
             {"drones", r.drones},
             {"duration_s", r.duration_s},

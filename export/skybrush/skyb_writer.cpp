@@ -175,7 +175,8 @@ bool recognises(std::string_view, std::string_view first_bytes) {
 constexpr Format kSkyb{"skyb",     "Skybrush binary show, a file a drone: curves, lights, yaw, payload events",
                        "exact",    "the airspace and the cues; yaw beyond a tenth of a degree",
                        write,      read_skyb,
-                       recognises, unsuited};
+                       recognises, unsuited,
+                       true};
 
 }  // namespace
 

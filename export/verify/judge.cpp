@@ -9,7 +9,8 @@
 namespace aerogram::exporter {
 namespace {
 
-constexpr double kSag_m = 0.02;  ///< a level leg of 1 km is a straight line, that much lower in its middle
+constexpr double kMostExcused = 0.75;  ///< of the least speed limit, and of the acceleration limit
+constexpr double kSag_m = 0.02;        ///< a level leg of 1 km is a straight line, that much lower in its middle
 
 std::string where_limits_come_from(const RecordedShow& show, const JudgeAgainst& against) {
     if (show.limits) return "the file";
@@ -23,6 +24,12 @@ Rules rules_for(const RecordedShow& show, const JudgeAgainst& against) {
     if (const auto& origin = show.origin ? show.origin : against.origin) rules.frame.emplace(*origin);
     rules.endurance_s = show.endurance_s ? show.endurance_s : against.endurance_s;
     rules.rounding = show.rounding;
+    // A file's rounding excuses a part of a limit, never all of it: one tiny piece must not hide what others do.
+    const Limits& l = rules.limits;
+    const double slowest_mps = std::min({l.speed_horizontal_mps, l.speed_up_mps, l.speed_down_mps});
+    rules.rounding.speed_allowance_mps = std::min(rules.rounding.speed_allowance_mps, kMostExcused * slowest_mps);
+    rules.rounding.acceleration_allowance_mps2 =
+        std::min(rules.rounding.acceleration_allowance_mps2, kMostExcused * l.acceleration_mps2);
     return rules;
 }
 

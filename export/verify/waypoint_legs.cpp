@@ -31,6 +31,20 @@ double home_height_m(const RecordedDrone& untimed, const geo::ShowFrame& frame) 
     return *untimed.home_amsl_m + frame.origin().geoid_undulation_m.value_or(0.0);
 }
 
+/// The file's own fence: the first outline that nobody may leave, and all that nobody may enter.
+void take_fence(const GeodeticFence& fence, const geo::ShowFrame& frame, geo::Airspace& airspace) {
+    const auto on_ground = [&](const GeodeticFence::Outline& outline) {
+        geo::Polygon polygon;
+        for (const geo::Geodetic& corner : outline) {
+            const Vec3 p = frame.to_show({corner.latitude_deg, corner.longitude_deg, frame.origin().ground.height_m});
+            polygon.push_back({p.x, p.y});
+        }
+        return polygon;
+    };
+    if (!fence.inside.empty()) airspace.geofence_m = on_ground(fence.inside.front());
+    for (const auto& outline : fence.outside) airspace.audience_m.push_back(on_ground(outline));
+}
+
 RecordedDrone legs_of(const RecordedDrone& untimed, const geo::ShowFrame& frame) {
     RecordedDrone drone;
     drone.name = untimed.name;
@@ -177,6 +191,8 @@ Result<RecordedShow> legs_as_pieces(const RecordedShow& untimed, Rules& rules) {
         }
     }
     if (!rules.frame) rules.frame.emplace(geo::ShowOrigin{*untimed.drones.front().home, 0.0, {}});
+    if (untimed.fence && rules.airspace.geofence_m.empty() && rules.airspace.audience_m.empty())
+        take_fence(*untimed.fence, *rules.frame, rules.airspace);
     RecordedShow legs = untimed;
     for (RecordedDrone& drone : legs.drones) drone = legs_of(drone, *rules.frame);
     return legs;

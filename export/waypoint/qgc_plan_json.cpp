@@ -135,7 +135,8 @@ constexpr Format kQgcPlan{
     "qgc",      "QGroundControl plans, one a drone: keyframe places (timing none, absolute or speed), fence, rally",
     "none",     "curves, lights, yaw, events, cues, limits; of times all but the waits of timing absolute",
     write,      read_qgc_plan,
-    recognises, unsuited_for_missions};
+    recognises, unsuited_for_missions,
+    true};
 
 }  // namespace
 

@@ -1,8 +1,12 @@
+#include <algorithm>
+#include <cmath>
+
 #include "export/bytes/json_document.hpp"
 #include "export/waypoint/mission_items.hpp"
 #include "export/waypoint/mission_reading.hpp"
 #include "export/waypoint/plan_rules.hpp"
 #include "export/waypoint/qgc_plan.hpp"
+#include "geo/units.hpp"
 
 namespace aerogram::exporter {
 namespace {
@@ -50,6 +54,60 @@ RecordedDrone read_drone(const FileBytes& file, const JsonNode& root) {
     drone.name = stem(file.path);
     if (drone.waypoints.empty()) items.fail("needs at least one place to fly to");
     return drone;
+}
+
+constexpr std::size_t kMostOutlines = 1000, kMostCorners = 10'000, kCircleCorners = 64;
+
+geo::Geodetic read_corner(const JsonNode& node) {
+    return {node.at(0).number(-90.0, 90.0), node.at(1).number(-180.0, 180.0), 0.0};
+}
+
+GeodeticFence::Outline read_outline(const JsonNode& node) {
+    GeodeticFence::Outline outline;
+    if (node.size() < 3 || node.size() > kMostCorners)
+        node.fail("must be 3 to " + std::to_string(kMostCorners) + " corners");
+    for (std::size_t k = 0; k < node.size() && !node.problem().found(); ++k) outline.push_back(read_corner(node.at(k)));
+    return outline;
+}
+
+/// A circle by corners on it, or, where nobody may enter it, by sides outside it.
+GeodeticFence::Outline read_circle(const JsonNode& node, bool inclusion) {
+    const geo::ShowFrame frame(geo::ShowOrigin{read_corner(node["center"]), 0.0, {}});
+    const double half_turn = kPi / static_cast<double>(kCircleCorners);
+    const double radius_m = node["radius"].number(1e-3, 1e6) / (inclusion ? 1.0 : std::cos(half_turn));
+    GeodeticFence::Outline outline;
+    for (std::size_t k = 0; k < kCircleCorners; ++k) {
+        const double turn = 2.0 * half_turn * static_cast<double>(k);
+        outline.push_back(frame.to_geodetic({radius_m * std::cos(turn), radius_m * std::sin(turn), 0.0}));
+    }
+    return outline;
+}
+
+GeodeticFence read_fence(const JsonNode& node) {
+    GeodeticFence fence;
+    if (node["version"].whole(0, 1000) != 2)
+        node["version"].fail("must be 2: ground stations pass over others in silence");
+    const auto read_all = [&](const char* key, const auto& read_one) {
+        const auto list = node.find(key);
+        if (!list) return;
+        if (list->size() > kMostOutlines) list->fail("must be at most " + std::to_string(kMostOutlines));
+        for (std::size_t k = 0; k < list->size() && !node.problem().found(); ++k) {
+            const bool inclusion = list->at(k)["inclusion"].flag();
+            (inclusion ? fence.inside : fence.outside).push_back(read_one(list->at(k), inclusion));
+        }
+    };
+    read_all("polygons", [](const JsonNode& one, bool) { return read_outline(one["polygon"]); });
+    read_all("circles", [](const JsonNode& one, bool inclusion) { return read_circle(one["circle"], inclusion); });
+    return fence;
+}
+
+bool same(const GeodeticFence& a, const GeodeticFence& b) {
+    const auto same_places = [](const GeodeticFence::Outline& p, const GeodeticFence::Outline& q) {
+        return std::ranges::equal(p, q, [](const geo::Geodetic& x, const geo::Geodetic& y) {
+            return x.latitude_deg == y.latitude_deg && x.longitude_deg == y.longitude_deg;
+        });
+    };
+    return std::ranges::equal(a.inside, b.inside, same_places) && std::ranges::equal(a.outside, b.outside, same_places);
 }
 
 /// What is ours in the file; every file of one show must say the same.
@@ -101,6 +159,11 @@ Result<RecordedShow> read_qgc_plan(std::span<const FileBytes> files) {
         if (words && own != *words) root["aerogram"].fail("says another show than the file before");
         words = own;
         show.drones.push_back(read_drone(file, root));
+        if (const auto node = root.find("geoFence")) {
+            GeodeticFence fence = read_fence(*node);
+            if (show.fence && !same(*show.fence, fence)) node->fail("is another fence than in the file before");
+            show.fence = std::move(fence);
+        }
         if (problem.found()) return problem.error();
     }
     show.title = words->title;

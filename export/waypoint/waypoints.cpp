@@ -153,7 +153,8 @@ constexpr Format kWaypoints{
     "waypoints", "QGC WPL 110 missions, one a drone: keyframe places (timing none, absolute or speed)",
     "none",      "curves, lights, yaw, events, cues, limits, fence, show hash; of times all but the waits of absolute",
     write,       read_waypoints,
-    recognises,  unsuited_for_missions};
+    recognises,  unsuited_for_missions,
+    true};
 
 }  // namespace
 

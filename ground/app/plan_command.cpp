@@ -139,6 +139,8 @@ Result<planner::Mission> mission_of(const PlanCommand& command) {
     if (const Status sound = take_wishes(typed, wishes); !sound) return sound.error();
     auto mission = planner::read_mission(command.mission);
     if (mission) static_cast<void>(take_wishes(typed, mission->exporting));
+    if (mission && command.timing == "absolute" && !mission->exporting.start_utc_s)
+        return Error{ErrorCode::invalid_input, "--timing absolute needs --start-utc, or start_utc in [export]"};
     return mission;
 }
 
@@ -163,9 +165,9 @@ Result<std::vector<planner::Replacement>> replacements_of(const PlanCommand& com
 Error refusal_of(const planner::Mission& mission, const FlightPlan& plan, const std::filesystem::path& out,
                  const Run& run) {
     Error refusal = planner::refusal(mission, plan.certificate);
-    const Status told = exporter::write_refused_report(plan, out, exporter::reasons_of(plan), run);
+    const Status told = exporter::write_refused_report(plan, out, exporter::reasons_of(plan), {}, run);
     if (!told) return told.error();
-    refusal.message += "\n  report: " + (exporter::refused_folder(out) / "report.html").string();
+    refusal.message += "\n  " + exporter::refused_words(out);
     return refusal;
 }
 
@@ -201,6 +203,8 @@ int run_plan(const PlanCommand& command, const Session& session) {
     if (!shown) return report_error(shown.error(), session);
     session.console.clear_line();
     if (!shown->certified) tell_violations(*plan, session.console);
+    for (const std::string& line : shown->broken) session.console.error("not certified: " + line);
+    for (const std::string& warning : shown->warnings) session.console.error("warning: " + warning);
     if (session.json) {
         std::cout << plan_answer(*plan, *shown, out);
     } else if (!session.quiet) {

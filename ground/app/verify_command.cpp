@@ -22,7 +22,7 @@ std::string unit_of(const std::string& rule) {
         rule == "sink")
         return " m/s";
     if (rule == "acceleration") return " m/s²";
-    if (rule == "endurance") return " s";
+    if (rule == "endurance" || rule == "leaving_times") return " s";
     if (rule == "turn_rate_dps") return " deg/s";
     return " m";
 }

@@ -47,6 +47,12 @@ void read_report(TableReader& root, Mission& mission) {
     take(*in, "wind_mps", at_least(0.0, 50.0), wishes.wind_mps);
     take(*in, "reserve_percent", at_least(0.0, 90.0), wishes.reserve_percent);
     take(*in, "return_altitude_m", more_than(0.0, 10'000.0), wishes.return_altitude_m);
+    const Limits& l = mission.limits;
+    if (wishes.return_altitude_m &&
+        (*wishes.return_altitude_m < l.min_navigation_altitude_m || *wishes.return_altitude_m > l.ceiling_m)) {
+        in->bad("return_altitude_m", "must be from " + shown(l.min_navigation_altitude_m) +
+                                         ", min_navigation_altitude_m, to " + shown(l.ceiling_m) + ", the ceiling");
+    }
     take(*in, "return_layer_m", at_least(0.0, 100.0), wishes.return_layer_m);
     take(*in, "return_speed_mps", more_than(0.0, 100.0), wishes.return_speed_mps);
     take(*in, "land_speed_mps", more_than(0.0, 100.0), wishes.land_speed_mps);

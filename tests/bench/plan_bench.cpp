@@ -60,7 +60,8 @@ void export_words(benchmark::State& state) {
         const auto show =
             exporter::export_show(plan, folder, {.formats = {}, .best_effort = false, .drones = {}}, Run{});
         const bool held = show.ok() && show->certified && std::ranges::all_of(show->formats, [](const auto& format) {
-                              return format.skipped.empty() && format.judgement.held();
+                              const bool not_for_many = format.name == "crazyflie" && plan.drones() > 255;
+                              return (format.skipped.empty() || not_for_many) && format.judgement.held();
                           });
         if (!held) {
             state.SkipWithError(show.ok() ? "a format was skipped or does not hold" : show.error().message.c_str());

@@ -17,7 +17,7 @@ using ::testing::StartsWith;
 
 PadSheet sheet_of(std::size_t drones) {
     const Report report = sample::report({drones, 30.0, true, "The end"});
-    return pad_sheet(sample::facts(report), report.show_hash);
+    return pad_sheet(sample::facts(report), report.show_hash, report.certified);
 }
 
 TEST(PadSheet, SystemIdsFitIntoAByteAndAreUniqueOnTheirLink) {
@@ -37,9 +37,9 @@ TEST(PadSheet, SystemIdsFitIntoAByteAndAreUniqueOnTheirLink) {
 
 TEST(PadSheet, ADroneKeepsItsIdWhenOnlySomeGoOut) {
     OutgoingFacts facts = sample::facts(sample::report({600, 30.0, true, "x"}));
-    const PadSheet whole = pad_sheet(facts, "");
+    const PadSheet whole = pad_sheet(facts, "", true);
     facts.drones = {facts.drones[555], facts.drones[16]};
-    const PadSheet some = pad_sheet(facts, "");
+    const PadSheet some = pad_sheet(facts, "", true);
     ASSERT_EQ(some.rows.size(), 2U);
     EXPECT_EQ(some.rows[0].drone, 17U);
     EXPECT_EQ(some.rows[0].system_id, 17U);

@@ -176,7 +176,7 @@ TEST(ReportSamples, AreWrittenWhereAsked) {
                 sample::report({drones, drones == 10000 ? 600.0 : 187.0, certified, certified ? "The end" : long_name});
             const auto stem =
                 (std::filesystem::path(folder) / (std::to_string(drones) + (certified ? "" : "-failing"))).string();
-            const PadSheet pads = pad_sheet(sample::facts(r), r.show_hash);
+            const PadSheet pads = pad_sheet(sample::facts(r), r.show_hash, r.certified);
             ASSERT_TRUE(write_file(stem + ".pdf", report_pdf(r).value()).ok());
             ASSERT_TRUE(write_file(stem + ".html", report_html(r)).ok());
             ASSERT_TRUE(write_file(stem + ".json", report_json(r)).ok());
