@@ -56,7 +56,7 @@ Figure margin_figure(const Report& report) {
     if (!around) rule = tightest(report);
     if (rule == nullptr) return {"Tightest margin", kAbsent, "no rule judged"};
     const std::string who = who_and_when(*rule);
-    return {around ? "Least margin to fence, audience, obstacles" : "Tightest margin",
+    return {around ? "Least margin to what stands around" : "Tightest margin",
             signed_text(rule->margin, rule_digits(*rule)) + " " + rule->unit,
             rule->title + (who.empty() ? "" : "; " + who)};
 }

@@ -42,14 +42,22 @@ std::string finding_line(const Finding& finding) {
 std::string judgement_text(const Judgement& judgement, bool only_broken = false) {
     std::string text = "  " + judgement.format + ": " + (judgement.held() ? "holds" : "BROKEN") + " (limits from " +
                        judgement.limits_from + ")\n";
-    if (!judgement.separation_claimed)
-        text += "    " + (judgement.timing.empty() ? "untimed" : judgement.timing) +
-                " waypoints: no separation is claimed\n";
+    if (!judgement.separation_claimed) text += "    no separation is claimed for waypoints\n";
     for (const Finding& finding : judgement.findings) {
         if (!finding.held || !only_broken) text += finding_line(finding);
     }
     for (const std::string& problem : judgement.problems) text += "    BROKEN  " + problem + "\n";
     return text;
+}
+
+/// A format that holds, beside others of the same show.
+std::string one_line(const Judgement& judgement) {
+    const std::string kept =
+        judgement.separation_claimed
+            ? "separation >= " + decimals(judgement.min_separation_m, 3) + " m"
+            : (judgement.timing.empty() ? "untimed" : judgement.timing.substr(0, judgement.timing.find(':'))) +
+                  " waypoints, no separation is claimed";
+    return "  " + judgement.format + ": holds, " + kept + "\n";
 }
 
 }  // namespace
@@ -70,7 +78,10 @@ int run_verify(const VerifyCommand& command, const Session& session) {
         for (const auto& [path, verified] : all) {
             std::cout << path.string() << ": " << (verified.held() ? "verified\n" : "NOT VERIFIED\n");
             for (const std::string& problem : verified.problems) std::cout << "  BROKEN  " << problem << "\n";
-            for (const Judgement& judgement : verified.shows) std::cout << judgement_text(judgement);
+            for (const Judgement& judgement : verified.shows) {
+                const bool brief = judgement.held() && &judgement != &verified.shows.front();
+                std::cout << (brief ? one_line(judgement) : judgement_text(judgement));
+            }
         }
     } else {
         for (const auto& [path, verified] : all) {

@@ -59,7 +59,7 @@ void export_words(benchmark::State& state) {
     for (auto _ : state) {
         const auto show =
             exporter::export_show(plan, folder, {.formats = {}, .best_effort = false, .drones = {}}, Run{});
-        const bool held = show.ok() && show->certified && std::ranges::all_of(show->formats, [](const auto& format) {
+        const bool held = show.ok() && show->certified && std::ranges::all_of(show->formats, [&](const auto& format) {
                               const bool not_for_many = format.name == "crazyflie" && plan.drones() > 255;
                               return (format.skipped.empty() || not_for_many) && format.judgement.held();
                           });

@@ -44,6 +44,16 @@ RecordedShow legal() {
 
 constexpr Limits kAnyAltitude{.min_navigation_altitude_m = 0.0};
 
+// One piece of a millisecond made a reader state an allowance of 20,000 m/s²: nothing that any drone did counted.
+TEST(Judge, RoundingExcusesAPartOfALimitNeverAllOfIt) {
+    RecordedShow show = show_of({flight({0, 0, 0}, {80, 0, 0})});
+    show.rounding.speed_allowance_mps = 5.3;
+    show.rounding.acceleration_allowance_mps2 = 20'785.0;
+    const Judgement judgement = judged(show);
+    EXPECT_FALSE(finding(judgement, "speed_horizontal").held);
+    EXPECT_FALSE(finding(judgement, "acceleration").held);
+}
+
 TEST(Judge, LegalShowHoldsEveryRuleThatApplies) {
     const Judgement judgement = judged(legal());
     EXPECT_TRUE(judgement.held());

@@ -48,6 +48,27 @@ TEST(JudgeWaypoints, ClaimNoSeparationAndJudgePlaces) {
     EXPECT_FALSE(finding(judgement, "geofence").time_s.has_value());
 }
 
+// A plan whose first waypoint was a kilometre outside its own fence was verified.
+TEST(JudgeWaypoints, TheirOwnFenceIsJudgedWhereNoOtherIsKnown) {
+    RecordedShow show = mission(10.0);
+    const geo::ShowFrame frame(*show.origin);
+    const auto outline = [&](double from_x, double to_x) {
+        GeodeticFence::Outline corners;
+        for (const Vec2& p : {Vec2{from_x, -5}, Vec2{to_x, -5}, Vec2{to_x, 5}, Vec2{from_x, 5}})
+            corners.push_back(frame.to_geodetic({p.x, p.y, 0.0}));
+        return corners;
+    };
+    show.fence = GeodeticFence{{outline(-5, 104)}, {}};
+    EXPECT_NEAR(finding(judged(show), "geofence").worst, 4.0, 0.01);
+    EXPECT_TRUE(judged(show).held());
+    show.fence = GeodeticFence{{outline(-5, 60)}, {}};
+    EXPECT_NEAR(finding(judged(show), "geofence").worst, -40.0, 0.5);
+    show.fence = GeodeticFence{{}, {outline(40, 60)}};
+    EXPECT_FALSE(finding(judged(show), "audience").held);
+    show.origin.reset();  // as in other programs' plans
+    EXPECT_FALSE(finding(judged(show), "audience").held);
+}
+
 TEST(JudgeWaypoints, BreakRulesBetweenWaypoints) {
     const geo::Airspace cut{.geofence_m = {}, .audience_m = {{{40, -2}, {60, -2}, {50, 4}}}, .obstacles = {}};
     EXPECT_THAT(broken(judged(mission(10.0), airspace(cut))), ElementsAre("audience"));

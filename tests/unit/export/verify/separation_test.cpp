@@ -49,6 +49,38 @@ double brute_force(const RecordedShow& show, double downwash, std::size_t sample
     return smallest;
 }
 
+TEST(VerifySeparation, WhereItIsToldToLookFirstDoesNotChangeTheBound) {
+    Random random{11};
+    for (int round = 0; round < 20; ++round) {
+        std::vector<RecordedDrone> drones(12);
+        for (RecordedDrone& drone : drones) {
+            Vec3 at = random.in_box({-8, -8, 10}, {8, 8, 20});
+            for (int k = 0; k < 4; ++k) {
+                const Vec3 next = random.in_box({-8, -8, 10}, {8, 8, 20});
+                testing::add_smooth(drone, 5.0, at, next);
+                at = next;
+            }
+        }
+        const RecordedShow show = show_of(drones);
+        const VerifiedSeparation plain = separation(show);
+        const double nan = std::numeric_limits<double>::quiet_NaN();
+        const std::vector<LikelyClosest> tips{{plain.first, plain.second, plain.time_s},
+                                              {0, 1, 3.0},
+                                              {4, 4, 3.0},
+                                              {0, 99, 3.0},
+                                              {2, 3, -5.0},
+                                              {2, 3, nan}};
+        for (const LikelyClosest& tip : tips) {
+            SeparationSearch search;
+            search.likely_closest = tip;
+            const auto told = verify_separation(show, 1.0, 10.0, aerogram::Run{}, search).value();
+            EXPECT_NEAR(told.lower_bound_m, plain.lower_bound_m, 2e-5) << "round " << round;
+            EXPECT_NEAR(told.attained_m, plain.attained_m, 2e-5);
+            EXPECT_LE(told.lower_bound_m, told.attained_m);
+        }
+    }
+}
+
 TEST(VerifySeparation, CrossingLinesMeetTheClosedForm) {
     // Relative motion (-10, 0, 0) + t (4, -3, 0): distance from the origin |(-10)(-3) - 0| / 5 = 6.
     const RecordedShow show =
