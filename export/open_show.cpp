@@ -50,6 +50,8 @@ void complete(OpenedShow& opened, const Manifest& manifest, const fs::path& fold
     if (!show.airspace) show.airspace = manifest.airspace;
     if (!show.origin) show.origin = manifest.origin;
     if (!show.endurance_s) show.endurance_s = manifest.endurance_s;
+    if (!show.certified)
+        show.certified = manifest.certified;  // the hash stays the file's own: its lights may be others
     if (show.title.empty()) show.title = manifest.show_name;
     opened.completed_from = (folder / kManifestName).string();
 }

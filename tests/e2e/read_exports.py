@@ -68,14 +68,25 @@ def position(points, t):
 
 
 def segments(program):
-    """[start tick, end tick, colour at start, colour at end] of a light program without loops; it must not end on a fade."""
+    """[start tick, end tick, colour at start, colour at end] of a light program, loops unrolled; it must not end on a fade."""
     at, tick, color, found = 0, 0, (0, 0, 0), []
-    last = None
+    last, loops = None, []
     while True:
         code = program[at]
         at += 1
+        if code == 12:  # what follows, so many times
+            loops.append([at + 1, program[at]])
+            at += 1
+            assert loops[-1][1] > 0 and len(loops) <= 4, "loops without an end or too deep"
+            continue
+        if code == 13:
+            loops[-1][1] -= 1
+            at = loops[-1][0] if loops[-1][1] else at
+            if not loops[-1][1]:
+                loops.pop()
+            continue
         if code == 0:
-            assert at == len(program) and last in (4, 5, 6, 7), "must end with a set"
+            assert at == len(program) and not loops and last in (4, 5, 6, 7), "must end with a set"
             return found
         assert 4 <= code <= 11, f"instruction {code}"
         kind, spelling = code // 4, code % 4
