@@ -10,6 +10,7 @@
 #include "export/report/report_files.hpp"
 #include "export/report/report_words.hpp"
 #include "sample_report.hpp"
+#include "tests/unit/export/written_files.hpp"
 
 namespace aerogram::exporter {
 namespace {
@@ -162,26 +163,31 @@ TEST(ReportHtml, TenThousandDronesAndTenMinutesStayBelowTenMegabytes) {
     EXPECT_LT(report_html(sample::report({10000, 600.0, true, "x"})).size(), 10'000'000U);
 }
 
-// tests/e2e/report.py reads them; also to look at.
-TEST(ReportSamples, AreWrittenWhereAsked) {
-    const char* folder = std::getenv("AEROGRAM_REPORT_SAMPLES");
-    if (folder == nullptr) GTEST_SKIP() << "AEROGRAM_REPORT_SAMPLES=FOLDER writes them";
+// tests/e2e/report.py has them written into a folder of its own and reads them with other programs.
+TEST(ReportSamples, EveryPaperIsWrittenForFleetsOfEverySize) {
+    const ScratchFolder scratch;
+    const char* asked = std::getenv("AEROGRAM_REPORT_SAMPLES");
+    const std::filesystem::path folder = asked != nullptr ? std::filesystem::path(asked) : scratch.path();
     const std::string long_name =
         "A show with quite a long name, as people like to give them: the opening night of the 42nd summer festival by "
-        "the "
-        "lake, second version";
+        "the lake, second version";
     for (const std::size_t drones : {10U, 1000U, 10000U})
         for (const bool certified : {true, false}) {
             const Report r =
                 sample::report({drones, drones == 10000 ? 600.0 : 187.0, certified, certified ? "The end" : long_name});
-            const auto stem =
-                (std::filesystem::path(folder) / (std::to_string(drones) + (certified ? "" : "-failing"))).string();
+            const auto stem = (folder / (std::to_string(drones) + (certified ? "" : "-failing"))).string();
             const PadSheet pads = pad_sheet(sample::facts(r), r.show_hash, r.certified);
-            ASSERT_TRUE(write_file(stem + ".pdf", report_pdf(r).value()).ok());
+            const auto pdf = report_pdf(r), sheet = pads_pdf(pads);
+            ASSERT_TRUE(pdf.ok() && sheet.ok());
+            EXPECT_TRUE(pdf->starts_with("%PDF-") && sheet->starts_with("%PDF-")) << stem;
+            const std::string rows = pads_csv(pads), json = report_json(r);
+            EXPECT_EQ(count_of(rows, "\n"), drones + 1) << stem;
+            EXPECT_THAT(json, HasSubstr("\"" + r.show_hash + "\"")) << stem;
+            ASSERT_TRUE(write_file(stem + ".pdf", *pdf).ok());
             ASSERT_TRUE(write_file(stem + ".html", report_html(r)).ok());
-            ASSERT_TRUE(write_file(stem + ".json", report_json(r)).ok());
-            ASSERT_TRUE(write_file(stem + "-pads.csv", pads_csv(pads)).ok());
-            ASSERT_TRUE(write_file(stem + "-pads.pdf", pads_pdf(pads).value()).ok());
+            ASSERT_TRUE(write_file(stem + ".json", json).ok());
+            ASSERT_TRUE(write_file(stem + "-pads.csv", rows).ok());
+            ASSERT_TRUE(write_file(stem + "-pads.pdf", *sheet).ok());
         }
 }
 
