@@ -15,7 +15,12 @@ class Samples {
   public:
     void add(std::int64_t frame, const Rgb& color) {
         const LightSample sample{frame, quantised(color)};
+        const LightSample replaced = samples_.empty() ? sample : samples_.back();
         while (!samples_.empty() && samples_.back().frame >= frame) samples_.pop_back();  // the later counts
+        // A jump: what it replaces was the colour until then, and samples before it may have been left out for it.
+        if (replaced.frame == frame && replaced.color != sample.color && !samples_.empty() &&
+            samples_.back().frame < frame - 1)
+            samples_.push_back({frame - 1, replaced.color});
         const std::size_t n = samples_.size();
         const bool level = n > 1 && samples_[n - 1].color == sample.color && samples_[n - 2].color == sample.color;
         if (level) samples_.pop_back();

@@ -58,5 +58,15 @@ TEST(LightSamples, PropertiesHoldOnRandomTracks) {
     }
 }
 
+// A lamp that stayed dim and then flashed was read as fading up to the flash (missions/lights.toml).
+TEST(LightSamples, AJumpAtTheEndOfALevelFadeKeepsWhatWasBefore) {
+    const Rgb dim{0.1, 0.1, 0.1}, flash{1.0, 1.0, 1.0};
+    const std::vector<LightKey> keys{{0, dim, true}, {2'000, dim, false}, {2'000, flash, false}};
+    const auto samples = light_samples(keys, 20);
+    ASSERT_GE(samples.size(), 2u);
+    EXPECT_EQ(samples.back(), (LightSample{100, quantised(flash)}));
+    EXPECT_EQ(samples[samples.size() - 2], (LightSample{99, quantised(dim)}));
+}
+
 }  // namespace
 }  // namespace aerogram::exporter
