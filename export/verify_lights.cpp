@@ -19,7 +19,8 @@ struct LightAccuracy {
 };
 constexpr std::array kKept{LightAccuracy{"skyc", 0.05, 0.02},    LightAccuracy{"skyb", 0.05, 0.02},
                            LightAccuracy{"preview", 0.05, 0.02}, LightAccuracy{"glb", 0.05, 0.02},
-                           LightAccuracy{"csv", 0.6, 0.03},      LightAccuracy{"px4-csv", 0.6, 0.03}};
+                           LightAccuracy{"vviz", 0.1, 0.02},     LightAccuracy{"csv", 0.6, 0.03},
+                           LightAccuracy{"px4-csv", 0.6, 0.03}};
 
 double difference(const Rgb& a, const Rgb& b) {
     return std::max({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)});
